@@ -1,0 +1,1 @@
+//! Fuses occupancy grids that lie in known poses: mapping, evidence fusion, gap treatment, coverage.

@@ -1,0 +1,1 @@
+//! Straight walls of an occupancy grid by RANSAC: detect, break at gaps, join, rate, filter.

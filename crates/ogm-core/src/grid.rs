@@ -1,0 +1,190 @@
+//! A rectangle of cells.
+
+use crate::error::GridError;
+
+/// The most cells that a grid may have: 2²⁹, a square of 23 170 a side.
+pub const MAX_CELLS: usize = 1 << 29;
+
+/// A cell by column (x) and row (y); row 0 is the lowest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct CellIndex {
+    /// Cells to the right of column 0.
+    pub column: usize,
+    /// Cells above row 0.
+    pub row: usize,
+}
+
+/// Cells of a rectangle in one allocation, row-major, row 0 lowest; never empty.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Grid<T> {
+    width: usize,
+    cells: Vec<T>,
+}
+
+impl<T> Grid<T> {
+    /// A grid over `cells`, row-major from the lowest row.
+    ///
+    /// # Errors
+    /// Zero area, more than [`MAX_CELLS`], or a length that is not `width * height`.
+    pub fn new(width: usize, height: usize, cells: Vec<T>) -> Result<Self, GridError> {
+        check_size(width, height)?;
+        if cells.len() != width * height {
+            return Err(GridError::WrongCellCount {
+                width,
+                height,
+                cells: cells.len(),
+            });
+        }
+        Ok(Self { width, cells })
+    }
+
+    /// A grid with every cell equal to `value`.
+    ///
+    /// # Errors
+    /// Zero area or more than [`MAX_CELLS`]; nothing is allocated then.
+    pub fn filled(width: usize, height: usize, value: T) -> Result<Self, GridError>
+    where
+        T: Clone,
+    {
+        check_size(width, height)?;
+        Ok(Self {
+            width,
+            cells: vec![value; width * height],
+        })
+    }
+
+    /// Columns, at least 1.
+    #[must_use]
+    pub fn width(&self) -> usize {
+        self.width
+    }
+
+    /// Rows, at least 1.
+    #[must_use]
+    pub fn height(&self) -> usize {
+        self.cells.len() / self.width
+    }
+
+    /// All cells, row-major from the lowest row.
+    #[must_use]
+    pub fn cells(&self) -> &[T] {
+        &self.cells
+    }
+
+    /// All cells, row-major from the lowest row.
+    #[must_use]
+    pub fn cells_mut(&mut self) -> &mut [T] {
+        &mut self.cells
+    }
+
+    /// The cells of one row.
+    ///
+    /// # Panics
+    /// If `row` is not below [`height`](Self::height).
+    #[must_use]
+    pub fn row(&self, row: usize) -> &[T] {
+        &self.cells[row * self.width..][..self.width]
+    }
+
+    /// Rows from the lowest up.
+    pub fn rows(&self) -> impl DoubleEndedIterator<Item = &[T]> + ExactSizeIterator {
+        self.cells.chunks_exact(self.width)
+    }
+
+    /// The cell at `index`, or `None` outside.
+    #[must_use]
+    pub fn get(&self, index: CellIndex) -> Option<&T> {
+        if index.column < self.width {
+            self.cells.get(index.row * self.width + index.column)
+        } else {
+            None
+        }
+    }
+
+    /// The cell at `index`, or `None` outside.
+    #[must_use]
+    pub fn get_mut(&mut self, index: CellIndex) -> Option<&mut T> {
+        if index.column < self.width {
+            self.cells.get_mut(index.row * self.width + index.column)
+        } else {
+            None
+        }
+    }
+
+    /// The column and row of the cell at `position` in [`cells`](Self::cells).
+    #[must_use]
+    pub fn index_of(&self, position: usize) -> CellIndex {
+        CellIndex {
+            column: position % self.width,
+            row: position / self.width,
+        }
+    }
+
+    /// A grid of the same size with `f` of every cell.
+    #[must_use]
+    pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Grid<U> {
+        Grid {
+            width: self.width,
+            cells: self.cells.iter().map(f).collect(),
+        }
+    }
+
+    /// Every cell with its index, row-major from the lowest row.
+    pub fn indexed(&self) -> impl Iterator<Item = (CellIndex, &T)> {
+        self.rows().enumerate().flat_map(|(row, cells)| {
+            cells
+                .iter()
+                .enumerate()
+                .map(move |(column, cell)| (CellIndex { column, row }, cell))
+        })
+    }
+}
+
+fn check_size(width: usize, height: usize) -> Result<(), GridError> {
+    if width == 0 || height == 0 {
+        return Err(GridError::ZeroArea { width, height });
+    }
+    match width.checked_mul(height) {
+        Some(count) if count <= MAX_CELLS => Ok(()),
+        _ => Err(GridError::TooLarge {
+            width,
+            height,
+            limit: MAX_CELLS,
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CellIndex, Grid};
+    use crate::GridError;
+
+    #[test]
+    fn absurd_sizes_are_errors_before_they_are_allocations() {
+        let billion = 1_000_000_000;
+        assert!(matches!(
+            Grid::filled(billion, billion, 0_u8),
+            Err(GridError::TooLarge { .. })
+        ));
+        assert!(matches!(
+            Grid::filled(usize::MAX, 2, 0_u8),
+            Err(GridError::TooLarge { .. })
+        ));
+        assert!(matches!(
+            Grid::filled(0, 7, 0_u8),
+            Err(GridError::ZeroArea { .. })
+        ));
+        assert!(matches!(
+            Grid::new(2, 2, vec![1_u8]),
+            Err(GridError::WrongCellCount { .. })
+        ));
+    }
+
+    #[test]
+    fn a_column_beyond_the_width_is_outside_and_not_the_next_row() {
+        let grid = Grid::new(2, 2, vec![0, 1, 2, 3]).unwrap();
+        assert_eq!(grid.get(CellIndex { column: 2, row: 0 }), None);
+        assert_eq!(grid.get(CellIndex { column: 0, row: 2 }), None);
+        assert_eq!(grid.get(CellIndex { column: 1, row: 1 }), Some(&3));
+    }
+}

@@ -1,0 +1,238 @@
+//! Rigid motions of the plane.
+
+use std::ops::Mul;
+
+use nalgebra::{Isometry2, Point2, Vector2, Vector3};
+
+use crate::angle::wrap_angle;
+
+/// A rigid motion of the plane: rotate by θ, then translate by (x, y).
+///
+/// Counter-clockwise is positive. It maps points, and every name of one says both frames:
+/// `p_target = target_from_source * p_source`. Motions compose with `*`, so frames cancel in
+/// reading order: `a_from_c = a_from_b * b_from_c`.
+///
+/// The exponential map and its inverse are those of Solà, Deray, Atchuthan: *A micro Lie theory*,
+/// Eqs. 156–158, on the tangent vector (x, y, θ).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Se2(Isometry2<f64>);
+
+/// Below this angle the series of sin θ/θ and (1 − cos θ)/θ are exact to rounding.
+const SMALL_ANGLE: f64 = 1e-4;
+
+impl Se2 {
+    /// The motion that rotates by `theta` radians and then translates by (`x`, `y`) metres.
+    #[must_use]
+    pub fn new(x: f64, y: f64, theta: f64) -> Self {
+        Self(Isometry2::new(Vector2::new(x, y), theta))
+    }
+
+    /// The motion that leaves every point where it is.
+    #[must_use]
+    pub fn identity() -> Self {
+        Self(Isometry2::identity())
+    }
+
+    /// Rotation by `theta` radians about `centre`, then translation.
+    #[must_use]
+    pub fn about(centre: Point2<f64>, theta: f64, translation: Vector2<f64>) -> Self {
+        let rotated = Isometry2::rotation(theta) * centre;
+        let offset = centre - rotated + translation;
+        Self::new(offset.x, offset.y, theta)
+    }
+
+    /// Translation along x, metres.
+    #[must_use]
+    pub fn x(&self) -> f64 {
+        self.0.translation.x
+    }
+
+    /// Translation along y, metres.
+    #[must_use]
+    pub fn y(&self) -> f64 {
+        self.0.translation.y
+    }
+
+    /// Rotation in [−π, π), radians.
+    #[must_use]
+    pub fn theta(&self) -> f64 {
+        wrap_angle(self.0.rotation.angle())
+    }
+
+    /// The translation that follows the rotation, metres.
+    #[must_use]
+    pub fn translation(&self) -> Vector2<f64> {
+        self.0.translation.vector
+    }
+
+    /// `source_from_target` of a `target_from_source`.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        Self(self.0.inverse())
+    }
+
+    /// `self_from_other`: the motion that maps the frame of `other` into that of `self`, both
+    /// given in one common frame.
+    #[must_use]
+    pub fn between(&self, other: &Self) -> Self {
+        self.inverse() * *other
+    }
+
+    /// The motion reached by the constant twist (x, y, θ) in unit time.
+    #[must_use]
+    pub fn exp(twist: Vector3<f64>) -> Self {
+        let (sin_over, cos_over) = half_turn_factors(twist.z);
+        let x = sin_over * twist.x - cos_over * twist.y;
+        let y = cos_over * twist.x + sin_over * twist.y;
+        Self::new(x, y, twist.z)
+    }
+
+    /// The twist (x, y, θ), |θ| ≤ π, whose [`exp`](Self::exp) is this motion.
+    #[must_use]
+    pub fn log(&self) -> Vector3<f64> {
+        let theta = self.theta();
+        let (sin_over, cos_over) = half_turn_factors(theta);
+        let scale = 1.0 / (sin_over * sin_over + cos_over * cos_over);
+        let (x, y) = (self.x(), self.y());
+        Vector3::new(
+            scale * (sin_over * x + cos_over * y),
+            scale * (sin_over * y - cos_over * x),
+            theta,
+        )
+    }
+
+    /// Whether x, y and θ are all finite.
+    #[must_use]
+    pub fn is_finite(&self) -> bool {
+        self.x().is_finite() && self.y().is_finite() && self.theta().is_finite()
+    }
+}
+
+/// sin θ/θ and (1 − cos θ)/θ.
+fn half_turn_factors(theta: f64) -> (f64, f64) {
+    if theta.abs() < SMALL_ANGLE {
+        (1.0 - theta * theta / 6.0, theta / 2.0)
+    } else {
+        (theta.sin() / theta, (1.0 - theta.cos()) / theta)
+    }
+}
+
+impl Mul for Se2 {
+    type Output = Self;
+
+    fn mul(self, right: Self) -> Self {
+        Self(self.0 * right.0)
+    }
+}
+
+impl Mul<Point2<f64>> for Se2 {
+    type Output = Point2<f64>;
+
+    fn mul(self, point: Point2<f64>) -> Point2<f64> {
+        self.0 * point
+    }
+}
+
+/// Vectors rotate and do not translate.
+impl Mul<Vector2<f64>> for Se2 {
+    type Output = Vector2<f64>;
+
+    fn mul(self, vector: Vector2<f64>) -> Vector2<f64> {
+        self.0 * vector
+    }
+}
+
+impl From<Isometry2<f64>> for Se2 {
+    fn from(isometry: Isometry2<f64>) -> Self {
+        Self(isometry)
+    }
+}
+
+impl From<Se2> for Isometry2<f64> {
+    fn from(motion: Se2) -> Self {
+        motion.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{SMALL_ANGLE, Se2};
+    use nalgebra::{Isometry2, Point2, Vector2, Vector3};
+    use proptest::prelude::{Strategy, prop_assert, proptest};
+    use std::f64::consts::PI;
+
+    fn motion() -> impl Strategy<Value = Se2> {
+        (-100.0_f64..100.0, -100.0_f64..100.0, -PI..PI).prop_map(|(x, y, t)| Se2::new(x, y, t))
+    }
+
+    fn distance(a: Se2, b: Se2) -> f64 {
+        let probe = Point2::new(3.0, -2.0);
+        (a * probe - b * probe).norm() + (a.translation() - b.translation()).norm()
+    }
+
+    proptest! {
+        #[test]
+        fn composition_is_associative(a in motion(), b in motion(), c in motion()) {
+            prop_assert!(distance((a * b) * c, a * (b * c)) < 1e-9);
+        }
+
+        #[test]
+        fn inverse_undoes_and_identity_is_neutral(a in motion()) {
+            prop_assert!(distance(a * a.inverse(), Se2::identity()) < 1e-10);
+            prop_assert!(distance(a.inverse() * a, Se2::identity()) < 1e-10);
+            prop_assert!(distance(a * Se2::identity(), a) < 1e-12);
+        }
+
+        #[test]
+        fn composition_applies_right_first(a in motion(), b in motion(), x in -9.0_f64..9.0) {
+            let p = Point2::new(x, 1.0 - x);
+            prop_assert!(((a * b) * p - a * (b * p)).norm() < 1e-10);
+        }
+
+        #[test]
+        fn exp_inverts_log(a in motion()) {
+            prop_assert!(distance(Se2::exp(a.log()), a) < 1e-9);
+        }
+
+        #[test]
+        fn exp_of_a_sum_of_parallel_twists_composes(
+            x in -5.0_f64..5.0, y in -5.0_f64..5.0, t in -1.0_f64..1.0, s in 0.0_f64..1.0,
+        ) {
+            let twist = Vector3::new(x, y, t);
+            let composed = Se2::exp(twist * s) * Se2::exp(twist * (1.0 - s));
+            prop_assert!(distance(composed, Se2::exp(twist)) < 1e-10);
+        }
+
+        #[test]
+        fn between_is_the_relative_motion(a in motion(), b in motion()) {
+            prop_assert!(distance(a * a.between(&b), b) < 1e-9);
+        }
+
+        #[test]
+        fn nalgebra_round_trip_is_exact(a in motion()) {
+            prop_assert!(Se2::from(Isometry2::from(a)) == a);
+        }
+    }
+
+    #[test]
+    fn exp_is_continuous_where_the_series_takes_over() {
+        for angle in [SMALL_ANGLE * 0.999_999_9, -SMALL_ANGLE * 0.999_999_9] {
+            let series = Se2::exp(Vector3::new(2.0, -1.0, angle));
+            let closed = Se2::exp(Vector3::new(2.0, -1.0, angle * 1.000_000_2));
+            assert!(distance(series, closed) < 5e-10, "jump at {angle}");
+        }
+    }
+
+    #[test]
+    fn half_a_turn_reads_minus_pi() {
+        assert_eq!(Se2::new(0.0, 0.0, PI).theta(), -PI);
+        assert_eq!(Se2::new(0.0, 0.0, -PI).theta(), -PI);
+    }
+
+    #[test]
+    fn rotation_about_a_centre_keeps_the_centre() {
+        let centre = Point2::new(4.0, -7.0);
+        let turned = Se2::about(centre, 1.1, Vector2::zeros()) * centre;
+        assert!((turned - centre).norm() < 1e-12);
+    }
+}

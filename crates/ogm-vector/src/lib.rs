@@ -1,0 +1,1 @@
+//! The direction of a rectangular building from the segments of its walls.

@@ -1,0 +1,3 @@
+//! The proof: experiments and checks of the workspace.
+
+fn main() {}

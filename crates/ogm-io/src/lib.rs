@@ -1,1 +1,52 @@
-//! Reads and writes occupancy grid maps as robots store them: ROS map_server YAML with PGM or PNG, and tag readings as CSV.
+//! Maps and tag logs on disk: ROS `map_server` YAML with PGM or PNG, tag readings as CSV.
+//!
+//! Cells are classified by the file's own thresholds, with the strict comparisons of `map_server`,
+//! before they become [`ogm_core::Occupancy`]; image rows are flipped here and nowhere else, so
+//! that row 0 of a map is its lowest. What is suspicious in a file but still has a meaning is a
+//! [`MapWarning`]; what cannot be meant is an [`IoError`] that names file, key and value.
+//!
+//! ```
+//! use ogm_io::{MapHeader, MapWarning, ReadOptions};
+//!
+//! let yaml = b"image: map.pgm\nresolution: 0.05\norigin: [-1.0, 2.0, 0.0]\nnegate: 0\n\
+//!              occupied_thresh: 0.65\nfree_thresh: 0.25\n";
+//! let (header, warnings) = MapHeader::parse(yaml)?;
+//! assert!(warnings.is_empty());
+//!
+//! let (map, warnings) = header.read_image(b"P2 2 2 255  0 254  254 205", &ReadOptions::default())?;
+//! assert_eq!(map.to_ascii(), "#.\n.?\n");
+//! // 205 is unknown to whoever saved this, but below a free_thresh of 0.25.
+//! assert!(matches!(warnings[..], [MapWarning::GreyReadAsUnknown { cells: 1, .. }]));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! [`read_map`] and [`write_map`] do the same with files; a map is written atomically.
+
+#![expect(
+    clippy::disallowed_methods,
+    reason = "files are what this crate is for"
+)]
+
+mod classify;
+mod disk;
+mod error;
+mod header;
+mod map;
+mod pgm;
+mod png;
+mod raster;
+mod tags;
+mod warning;
+mod write;
+
+pub use classify::ReadOptions;
+pub use error::{IoError, MapImageError, TagLogError, YamlError};
+pub use header::{MapHeader, MapMode};
+pub use map::{LoadedMap, read_map, read_map_with};
+pub use tags::{TAG_LOG_HEADER, parse_tags, read_tags, write_tags};
+pub use warning::MapWarning;
+pub use write::{CellEncoding, WriteOptions, write_map};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

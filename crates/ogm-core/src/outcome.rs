@@ -127,4 +127,14 @@ pub enum Refusal {
         /// Largest angle that is accepted, radians.
         limit_rad: f64,
     },
+    /// A refinement that left the neighbourhood of its start, or made it worse.
+    #[error(
+        "not converged: refinement ran away after {iterations} iterations with {rmse_m:.3} m between the walls; check the start"
+    )]
+    NotConverged {
+        /// Iterations made.
+        iterations: usize,
+        /// Root mean square distance of the last pairs, metres.
+        rmse_m: f64,
+    },
 }

@@ -1,0 +1,43 @@
+//! Merges two small maps, the second turned by a quarter, and shows map and conflicts.
+#![expect(clippy::print_stdout, reason = "an example shows its result")]
+
+use std::f64::consts::FRAC_PI_2;
+
+use grid_merge::{MergeParams, PlacedMap, merge};
+use ogm_core::{GridFrame, OccupancyGrid, Se2};
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let frame = GridFrame::new(0.05, Se2::identity())?;
+    let first = OccupancyGrid::from_ascii(
+        frame,
+        "########
+         #......#
+         #......?
+         #....???",
+    )?;
+    let second = OccupancyGrid::from_ascii(
+        frame,
+        "#######
+         #.....#
+         #.....#
+         #..#..#
+         #.....?",
+    )?;
+    let placed = [
+        PlacedMap {
+            map: &first,
+            reference_from_map: Se2::identity(),
+        },
+        PlacedMap {
+            map: &second,
+            reference_from_map: Se2::new(0.40, -0.15, FRAC_PI_2),
+        },
+    ];
+    let merged = merge(&placed, &MergeParams::default())?;
+    print!("{}", merged.map.to_ascii());
+    println!(
+        "{} of {} cells known to both are in conflict",
+        merged.conflict_count, merged.compared
+    );
+    Ok(())
+}

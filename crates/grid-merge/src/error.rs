@@ -1,0 +1,47 @@
+//! What cannot be merged.
+
+use ogm_core::GridError;
+
+/// A merge that cannot be meant.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MergeError {
+    /// No map to take the output's lattice from.
+    #[error("nothing to merge: at least one map is needed")]
+    NoMaps,
+    /// A pose with a NaN or infinite part.
+    #[error("the pose of map {map} must be finite, got ({x}, {y}, {theta})")]
+    NonFinitePose {
+        /// Which map, from 0.
+        map: usize,
+        /// Translation x, metres.
+        x: f64,
+        /// Translation y, metres.
+        y: f64,
+        /// Rotation, radians.
+        theta: f64,
+    },
+    /// Forward mapping would scatter the cells of a map over a finer output.
+    #[error(
+        "map {map} has cells of {have} m, too coarse for forward mapping onto {output} m; use inverse mapping"
+    )]
+    TooCoarseToScatter {
+        /// Which map, from 0.
+        map: usize,
+        /// Metres a cell of the map.
+        have: f64,
+        /// Metres a cell of the output.
+        output: f64,
+    },
+    /// Coarsening to a finer resolution.
+    #[error("cells of {have} m cannot be coarsened to {asked} m")]
+    FinerThanSource {
+        /// Metres a cell of the map.
+        have: f64,
+        /// Metres a cell that were asked for.
+        asked: f64,
+    },
+    /// An output that is no grid, by its size or its resolution.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+}

@@ -1,0 +1,220 @@
+//! Maps in known poses made one map.
+
+use std::borrow::Cow;
+
+use ogm_core::{Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
+
+use crate::bilinear::warp_bilinear;
+use crate::fuse::Fused;
+use crate::gaps::{blur_everywhere, blur_free, mean_of_majority};
+use crate::lattice::{Footprint, output_lattice};
+use crate::mapping::{Layer, Source};
+use crate::{GapTreatment, Interpolation, Mapping, MergeError, MergeParams, coarsen};
+
+/// A map and where it lies.
+#[derive(Debug, Clone, Copy)]
+pub struct PlacedMap<'a> {
+    /// The map, in its own map frame.
+    pub map: &'a OccupancyGrid,
+    /// Its pose in the frame of the output.
+    pub reference_from_map: Se2,
+}
+
+/// One map made of several.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Merged {
+    /// The fused map, in the reference frame, yaw 0.
+    pub map: OccupancyGrid,
+    /// Cells that one map calls occupied and another free, on the lattice of `map`.
+    pub conflicts: Grid<bool>,
+    /// How many cells of `conflicts` are set.
+    pub conflict_count: usize,
+    /// Cells that two maps or more know.
+    pub compared: usize,
+}
+
+/// Fuses `maps` in the frame that their poses are given in.
+///
+/// The output is the bounding box of all maps, with yaw 0. Where the first map has yaw 0 in the
+/// reference frame and no other resolution is asked for, its lattice is kept and its cells are
+/// copied; so are those of every map that lies on that lattice. All others are resampled by
+/// [`MergeParams::mapping`], those of finer resolution after [`coarsen`]. By Tsardoulias et al.,
+/// section 4.4; there the second map is transformed and the first stays.
+///
+/// # Errors
+/// No map, a pose that is not finite, an output over the size limit or of no usable resolution,
+/// and forward mapping of a map that is coarser than the output.
+pub fn merge(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<Merged, MergeError> {
+    let lattice = lattice_of(maps, params)?;
+    let prepared: Vec<_> = maps
+        .iter()
+        .enumerate()
+        .map(|(index, placed)| not_finer(index, placed.map, &lattice, params))
+        .collect::<Result<_, _>>()?;
+    let sources: Vec<_> = maps
+        .iter()
+        .zip(&prepared)
+        .map(|(placed, map)| source_of(map, placed.reference_from_map))
+        .collect();
+    let footprints: Vec<_> = sources
+        .iter()
+        .map(|source| source.footprint(&lattice, &params.mapping))
+        .collect::<Result<_, _>>()?;
+    let bounds = footprints
+        .iter()
+        .copied()
+        .reduce(|bounds, footprint| bounds.union(&footprint))
+        .ok_or(MergeError::NoMaps)?;
+
+    // Refuses an output over the size limit before anything of its size exists.
+    let mut fused = Fused::blank(bounds.size())?;
+    let mut layers = Vec::with_capacity(sources.len());
+    for (source, footprint) in sources.into_iter().zip(&footprints) {
+        let (column, row) = footprint.offset_in(&bounds);
+        let cells = resample(source, &lattice, footprint, params)?;
+        layers.push(Layer { column, row, cells });
+    }
+    fused.fuse(&layers, params.fusion, &params.thresholds);
+    Ok(Merged {
+        map: OccupancyGrid::new(bounds.frame(&lattice), blurred(fused.cells, params)),
+        conflicts: fused.conflicts,
+        conflict_count: fused.conflict_count,
+        compared: fused.compared,
+    })
+}
+
+/// `source` in the target frame, with yaw 0: the [`merge`] of one map.
+///
+/// With inverse mapping a cell of the result is known exactly where the source is known at its
+/// centre. A source that has yaw 0 in the target frame is copied.
+///
+/// # Errors
+/// Those of [`merge`].
+pub fn transform_grid(
+    source: &OccupancyGrid,
+    target_from_source: &Se2,
+    params: &MergeParams,
+) -> Result<OccupancyGrid, MergeError> {
+    let placed = PlacedMap {
+        map: source,
+        reference_from_map: *target_from_source,
+    };
+    let lattice = lattice_of(&[placed], params)?;
+    let map = not_finer(0, source, &lattice, params)?;
+    let moved = source_of(&map, *target_from_source);
+    let footprint = moved.footprint(&lattice, &params.mapping)?;
+    let cells = resample(moved, &lattice, &footprint, params)?.into_owned();
+    Ok(OccupancyGrid::new(
+        footprint.frame(&lattice),
+        blurred(cells, params),
+    ))
+}
+
+/// The output's lattice, once it is clear that all poses can be meant.
+fn lattice_of(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<GridFrame, MergeError> {
+    let first = maps.first().ok_or(MergeError::NoMaps)?;
+    for (index, placed) in maps.iter().enumerate() {
+        check_pose(index, &placed.reference_from_map)?;
+    }
+    let size = (first.map.width(), first.map.height());
+    let pose = &first.reference_from_map;
+    Ok(output_lattice(
+        first.map.frame(),
+        size,
+        pose,
+        params.resolution,
+    )?)
+}
+
+pub(crate) fn check_pose(map: usize, reference_from_map: &Se2) -> Result<(), MergeError> {
+    if reference_from_map.is_finite() {
+        Ok(())
+    } else {
+        Err(MergeError::NonFinitePose {
+            map,
+            x: reference_from_map.x(),
+            y: reference_from_map.y(),
+            theta: reference_from_map.theta(),
+        })
+    }
+}
+
+/// Forward mapping onto a finer lattice would leave more gaps than cells.
+pub(crate) fn check_scatter(
+    map: usize,
+    frame: &GridFrame,
+    lattice: &GridFrame,
+    mapping: &Mapping,
+) -> Result<(), MergeError> {
+    let (have, output) = (frame.resolution(), lattice.resolution());
+    let scatters = matches!(mapping, Mapping::Forward { .. });
+    if scatters && have > output && !frame.same_resolution(lattice) {
+        return Err(MergeError::TooCoarseToScatter { map, have, output });
+    }
+    Ok(())
+}
+
+/// The map, coarsened where it is finer than the lattice.
+fn not_finer<'a>(
+    index: usize,
+    map: &'a OccupancyGrid,
+    lattice: &GridFrame,
+    params: &MergeParams,
+) -> Result<Cow<'a, OccupancyGrid>, MergeError> {
+    check_scatter(index, map.frame(), lattice, &params.mapping)?;
+    let finer = map.frame().resolution() < lattice.resolution();
+    if finer && !map.frame().same_resolution(lattice) {
+        let coarse = coarsen(map, lattice.resolution(), &params.thresholds)?;
+        return Ok(Cow::Owned(coarse));
+    }
+    Ok(Cow::Borrowed(map))
+}
+
+fn source_of(map: &OccupancyGrid, reference_from_map: Se2) -> Source<'_, Occupancy> {
+    Source {
+        cells: Cow::Borrowed(map.cells()),
+        frame: *map.frame(),
+        reference_from_map,
+    }
+}
+
+fn resample<'a>(
+    source: Source<'a, Occupancy>,
+    lattice: &GridFrame,
+    footprint: &Footprint,
+    params: &MergeParams,
+) -> Result<Cow<'a, Grid<Occupancy>>, MergeError> {
+    let bilinear = params.mapping == Mapping::Inverse(Interpolation::Bilinear);
+    if bilinear && !footprint.whole_cells {
+        let warped = warp_bilinear(
+            &source.cells,
+            &source.frame,
+            &footprint.frame(lattice),
+            footprint.size(),
+            &source.reference_from_map,
+        )?;
+        return Ok(Cow::Owned(warped));
+    }
+    let fill = |known: &[Occupancy]| mean_of_majority(known, &params.thresholds);
+    Ok(source.onto(
+        lattice,
+        footprint,
+        &params.mapping,
+        Occupancy::UNKNOWN,
+        fill,
+    )?)
+}
+
+fn blurred(cells: Grid<Occupancy>, params: &MergeParams) -> Grid<Occupancy> {
+    match params.mapping {
+        Mapping::Forward {
+            gaps: GapTreatment::BlurEverywhere,
+            ..
+        } => blur_everywhere(&cells),
+        Mapping::Forward {
+            gaps: GapTreatment::PrintedCondition,
+            ..
+        } => blur_free(&cells, &params.thresholds),
+        _ => cells,
+    }
+}

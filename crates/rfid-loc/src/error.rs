@@ -1,0 +1,62 @@
+//! What cannot be meant as a reading, an estimate or a parameter.
+
+use ogm_core::GridError;
+
+/// Input that cannot be meant.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TagError {
+    /// Filter parameters that describe no sensor or no window.
+    #[error(
+        "a tag filter needs cells of at least 1 mm, a range sigma of at least a hundredth of a cell, a maximum range above 0 and a window that fits its {side_cells} cells a side; got cells of {cell_size} m, sigma {range_sigma} m, range {max_range} m, window {sub_sampling}"
+    )]
+    InvalidParams {
+        /// Metres a cell.
+        cell_size: f64,
+        /// Cells a side of the search area.
+        side_cells: usize,
+        /// Standard deviation of a range, metres.
+        range_sigma: f64,
+        /// Longest true range, metres.
+        max_range: f64,
+        /// Cells a side of the certainty window.
+        sub_sampling: usize,
+    },
+    /// A position that is not finite, or further than [`crate::MAX_COORDINATE`] from the origin.
+    #[error("a position must be finite and within 1e9 m of the origin, got ({x}, {y})")]
+    Position {
+        /// x, metres.
+        x: f64,
+        /// y, metres.
+        y: f64,
+    },
+    /// A range that is not finite, negative, or longer than the sensor can give.
+    #[error("a range must lie in 0..={limit} m, got {range}")]
+    Range {
+        /// The range, metres.
+        range: f64,
+        /// Longest range that is believed, metres.
+        limit: f64,
+    },
+    /// An estimate with an impossible position or certainty.
+    #[error("tag {tag_id} has no usable estimate: position ({x}, {y}) m, certainty {certainty}")]
+    Estimate {
+        /// Which tag.
+        tag_id: u32,
+        /// x, metres.
+        x: f64,
+        /// y, metres.
+        y: f64,
+        /// Certainty, in [0, 1] if it were usable.
+        certainty: f64,
+    },
+    /// Two estimates of one tag in one map.
+    #[error("tag {tag_id} occurs twice in one map")]
+    DuplicateTag {
+        /// Which tag.
+        tag_id: u32,
+    },
+    /// A search area that is no grid, or a rotation that is not finite.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+}

@@ -1,0 +1,213 @@
+//! The tags that two maps share, and whether they are known well enough (Table 3).
+
+use std::collections::BTreeMap;
+
+use nalgebra::Point2;
+use ogm_core::{Outcome, Refusal, TagEstimate};
+
+use crate::{MAX_COORDINATE, SelectionParams, TagError};
+
+/// One tag as two maps know it. Made by [`common_tags`], so both estimates are usable.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct TagPair {
+    target: TagEstimate,
+    source: TagEstimate,
+}
+
+impl TagPair {
+    /// Which tag.
+    #[must_use]
+    pub fn tag_id(&self) -> u32 {
+        self.target.tag_id
+    }
+
+    /// The tag in the target map.
+    #[must_use]
+    pub fn target(&self) -> &TagEstimate {
+        &self.target
+    }
+
+    /// The tag in the source map.
+    #[must_use]
+    pub fn source(&self) -> &TagEstimate {
+        &self.source
+    }
+
+    /// The smaller certainty of the two: the pair's precision in Table 3.
+    #[must_use]
+    pub fn certainty(&self) -> f64 {
+        self.target.certainty.min(self.source.certainty)
+    }
+}
+
+/// The tags that both maps know, the most certain pair first and of equal ones the smaller id.
+///
+/// Tags whose maximum touches the border of their search area in either map are left out.
+///
+/// # Errors
+/// A tag twice in one map; a position or certainty that is not finite or out of range.
+pub fn common_tags(
+    target: &[TagEstimate],
+    source: &[TagEstimate],
+) -> Result<Vec<TagPair>, TagError> {
+    let target = by_id(target)?;
+    let source = by_id(source)?;
+    let mut pairs: Vec<TagPair> = target
+        .values()
+        .filter_map(|&&target| {
+            let source = **source.get(&target.tag_id)?;
+            (!target.touches_border && !source.touches_border).then_some(TagPair { target, source })
+        })
+        .collect();
+    // Stable, and the map was ordered by id.
+    pairs.sort_by(|a, b| b.certainty().total_cmp(&a.certainty()));
+    Ok(pairs)
+}
+
+/// The three most certain pairs, if the third and the best exceed their thresholds
+/// (Tsardoulias et al., sections 4 and 4.2).
+///
+/// `pairs` are ordered as [`common_tags`] gives them. Refuses with [`Refusal::TooFewTags`] or
+/// [`Refusal::LowCertainty`].
+pub fn select_tags(pairs: &[TagPair], params: &SelectionParams) -> Outcome<[TagPair; 3]> {
+    let &[best, second, third, ..] = pairs else {
+        return Outcome::Refused(Refusal::TooFewTags {
+            have: pairs.len(),
+            need: 3,
+        });
+    };
+    for (pair, need) in [(best, params.best_above), (third, params.third_above)] {
+        let reached = pair.certainty();
+        let suffices = reached > need;
+        if !suffices {
+            return Outcome::Refused(Refusal::LowCertainty {
+                best: reached,
+                need,
+            });
+        }
+    }
+    Outcome::Found([best, second, third])
+}
+
+/// The positions of pairs, (target, source), metres in their maps.
+pub(crate) fn positions(pair: &TagPair) -> (Point2<f64>, Point2<f64>) {
+    (pair.target.position, pair.source.position)
+}
+
+fn by_id(estimates: &[TagEstimate]) -> Result<BTreeMap<u32, &TagEstimate>, TagError> {
+    let mut by_id = BTreeMap::new();
+    for estimate in estimates {
+        let &TagEstimate {
+            tag_id,
+            position,
+            certainty,
+            ..
+        } = estimate;
+        let is_near = |x: f64| x.abs() <= MAX_COORDINATE;
+        if !(is_near(position.x) && is_near(position.y) && (0.0..=1.0).contains(&certainty)) {
+            return Err(TagError::Estimate {
+                tag_id,
+                x: position.x,
+                y: position.y,
+                certainty,
+            });
+        }
+        if by_id.insert(tag_id, estimate).is_some() {
+            return Err(TagError::DuplicateTag { tag_id });
+        }
+    }
+    Ok(by_id)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{common_tags, select_tags};
+    use crate::fixture::estimate;
+    use crate::{SelectionParams, TagError};
+    use ogm_core::{Outcome, Refusal, TagEstimate};
+
+    /// Estimates of equal place from (tag, percent).
+    fn known(tags: &[(u32, u32)]) -> Vec<TagEstimate> {
+        tags.iter()
+            .map(|&(id, percent)| TagEstimate {
+                certainty: f64::from(percent) / 100.0,
+                ..estimate(id, 1.0, 2.0)
+            })
+            .collect()
+    }
+
+    fn select(target: &[(u32, u32)], source: &[(u32, u32)]) -> Outcome<Vec<(u32, f64)>> {
+        let pairs = common_tags(&known(target), &known(source)).unwrap();
+        match select_tags(&pairs, &SelectionParams::default()) {
+            Outcome::Found(pairs) => {
+                Outcome::Found(pairs.map(|pair| (pair.tag_id(), pair.certainty())).to_vec())
+            }
+            Outcome::Refused(refusal) => Outcome::Refused(refusal),
+        }
+    }
+
+    #[test]
+    fn t_q1_table_3_orders_the_tags_by_their_lesser_certainty() {
+        let selected = select(&[(5, 82), (7, 99), (9, 91)], &[(5, 92), (7, 76), (9, 92)]);
+        assert_eq!(
+            selected,
+            Outcome::Found(vec![(9, 0.91), (5, 0.82), (7, 0.76)])
+        );
+    }
+
+    #[test]
+    fn of_equal_certainty_the_smaller_id_comes_first_whatever_the_order() {
+        let selected = select(
+            &[(8, 95), (3, 95), (6, 95), (1, 95)],
+            &[(6, 97), (8, 97), (1, 97), (3, 97)],
+        );
+        let ids: Vec<u32> = selected.found().unwrap().iter().map(|tag| tag.0).collect();
+        assert_eq!(ids, [1, 3, 6]);
+    }
+
+    #[test]
+    fn both_thresholds_are_strict_and_each_refusal_names_its_own() {
+        let all = [(1, 99), (2, 99), (3, 99)];
+        for (tags, best, need) in [
+            ([(1, 95), (2, 90), (3, 75)], 0.75, 0.75),
+            ([(1, 90), (2, 85), (3, 80)], 0.90, 0.90),
+        ] {
+            let refusal = select(&tags, &all).refusal().cloned();
+            assert_eq!(refusal, Some(Refusal::LowCertainty { best, need }));
+        }
+        assert!(select(&[(1, 91), (2, 76), (3, 76)], &all).found().is_some());
+    }
+
+    #[test]
+    fn tags_known_to_one_robot_or_at_the_border_do_not_count() {
+        let mut target = known(&[(1, 99), (2, 99), (3, 99), (4, 99)]);
+        target[1].touches_border = true;
+        let source = known(&[(1, 99), (2, 99), (3, 99)]);
+        let pairs = common_tags(&target, &source).unwrap();
+        let refused = select_tags(&pairs, &SelectionParams::default());
+        let too_few = Refusal::TooFewTags { have: 2, need: 3 };
+        assert_eq!(refused.refusal(), Some(&too_few));
+    }
+
+    #[test]
+    fn estimates_that_cannot_be_meant_are_errors() {
+        let good = known(&[(1, 99)]);
+        for bad in [
+            TagEstimate {
+                certainty: f64::NAN,
+                ..good[0]
+            },
+            TagEstimate {
+                certainty: 1.5,
+                ..good[0]
+            },
+            estimate(1, f64::INFINITY, 0.0),
+            estimate(1, 0.0, f64::NAN),
+        ] {
+            let error = common_tags(&good, &[bad]).unwrap_err();
+            assert!(matches!(error, TagError::Estimate { tag_id: 1, .. }));
+        }
+        let twice = common_tags(&known(&[(1, 99), (1, 98)]), &good);
+        assert_eq!(twice, Err(TagError::DuplicateTag { tag_id: 1 }));
+    }
+}

@@ -1,1 +1,43 @@
-//! Merges the occupancy grid maps of robot teams: the methods of three papers as short recipes over small crates.
+//! Merges the occupancy grid maps of robot teams.
+//!
+//! The recipes are those of Tsardoulias, Thallas, Petrou, *Metric Map Merging using RFID Tags &
+//! Topological Information*: [`Method::Rfid1`] to [`Method::Rfid3`]. [`align`] finds the transform
+//! between two maps or refuses with a reason, and its [`MergeReport`] says what each stage saw;
+//! [`merge`] also fuses the cells.
+//!
+//! ```
+//! use ogm_merge::{MergeParams, Method, RobotMap, merge};
+//! use ogm_sim::{FloorPlan, LidarParams, PairParams, simulate_pair};
+//! use rfid_loc::{FilterParams, localise};
+//!
+//! let sparse = LidarParams { beams: 181, ..LidarParams::rf() };
+//! let world = PairParams { seed: 1, lidar: sparse, ..PairParams::default() };
+//! let pair = simulate_pair(&FloorPlan::plan_a(), &world)?;
+//! let target_tags = localise(&pair.target.readings, &FilterParams::default())?;
+//! let source_tags = localise(&pair.source.readings, &FilterParams::default())?;
+//!
+//! let target = RobotMap { map: &pair.target.map, tags: &target_tags };
+//! let source = RobotMap { map: &pair.source.map, tags: &source_tags };
+//! let (report, merged) = merge(Method::Rfid3, &target, &source, &MergeParams::default())?;
+//! let target_from_source = report.outcome.found().expect("these maps match");
+//! let error = target_from_source.between(&pair.target_from_source);
+//! assert!(error.translation().norm() < 0.02 && error.theta().abs() < 0.005);
+//! assert!(merged.expect("merged where a transform was found").compared > 0);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod align;
+mod error;
+mod params;
+mod recipes;
+mod report;
+mod stop;
+
+pub use align::{Method, RobotMap, align, merge};
+pub use error::MergeError;
+pub use params::{MergeParams, RfidParams};
+pub use report::{Evidence, MergeReport, WallDirection};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -1,1 +1,60 @@
-//! A small world to measure map merging in: floor plans, exploring robots, lidar, radio tags, and the exact truth.
+//! A small world to measure map merging in: floor plans, exploring robots, lidar, radio tags, and
+//! the exact truth.
+//!
+//! Two robots drive through a [`FloorPlan`]. Each maps what its lidar sees into an occupancy grid
+//! in a frame of its own, at its start with a random heading, and reads ranges to radio tags on
+//! the walls. [`simulate_pair`] returns both maps and the motion between their frames, which no
+//! merging method is told.
+//!
+//! ```
+//! use ogm_core::ClassThresholds;
+//! use ogm_sim::{FloorPlan, MappingParams, PairParams, simulate_pair};
+//!
+//! let plan = FloorPlan::plan_a();
+//! let mapping = MappingParams { resolution: 0.05, ..MappingParams::default() };
+//! let pair = simulate_pair(&plan, &PairParams { seed: 1, mapping, ..PairParams::default() })?;
+//!
+//! let wall = pair.source.map.occupied_points(&ClassThresholds::default())[0];
+//! let in_plan = pair.target.world_from_map * (pair.target_from_source * wall);
+//! assert!(plan.distance_to_face(in_plan) < 0.1);
+//! # Ok::<(), ogm_sim::SimError>(())
+//! ```
+//!
+//! - Plans: [`FloorPlan::plan_a`], [`FloorPlan::plan_b`], [`FloorPlan::random`], or text for
+//!   [`FloorPlan::parse`].
+//! - One map: [`survey`] maps a plan along both paths in a frame of any heading;
+//!   [`map_along_path`] sends one robot along any path.
+//! - Real maps: [`drive`] finds a path through their free space and [`tag_readings`] reads
+//!   simulated tags along it.
+//!
+//! Everything is decided by seeds: the same parameters give the same bytes.
+
+mod draw;
+mod drive;
+mod error;
+mod lidar;
+mod mapping;
+mod navigate;
+mod pair;
+mod params;
+mod path;
+mod plan;
+mod plan_text;
+mod random_plan;
+mod rounds;
+mod run;
+mod symmetry;
+mod tags;
+mod wander;
+
+pub use drive::{DriveParams, drive};
+pub use error::SimError;
+pub use pair::{SimulatedPair, simulate_pair};
+pub use params::{DriftParams, LidarParams, MappingParams, PairParams, TagParams};
+pub use plan::{Face, FloorPlan, Robot};
+pub use run::{RobotRun, map_along_path, survey};
+pub use tags::{place_tags, tag_readings};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -78,6 +78,10 @@ pub struct SelectionParams {
     pub best_above: f64,
     /// The third pair must exceed this: 0.75 (section 4).
     pub third_above: f64,
+    /// Tags nearer to a better one are passed over while others are sure enough, metres: 0.5,
+    /// the shortest lever that a direction is read from. The paper takes the three surest
+    /// wherever they lie, which is 0.
+    pub min_separation: f64,
 }
 
 impl Default for SelectionParams {
@@ -85,6 +89,7 @@ impl Default for SelectionParams {
         Self {
             best_above: 0.90,
             third_above: 0.75,
+            min_separation: 0.5,
         }
     }
 }

@@ -64,29 +64,39 @@ pub fn common_tags(
     Ok(pairs)
 }
 
-/// The three most certain pairs, if the third and the best exceed their thresholds
+/// The three most certain pairs that lie apart, if the third and the best exceed their thresholds
 /// (Tsardoulias et al., sections 4 and 4.2).
 ///
-/// `pairs` are ordered as [`common_tags`] gives them. Refuses with [`Refusal::TooFewTags`] or
-/// [`Refusal::LowCertainty`].
+/// `pairs` are ordered as [`common_tags`] gives them. A pair too near a better one is passed over
+/// as long as others are sure enough; otherwise the three most certain are taken wherever they
+/// lie. Refuses with [`Refusal::TooFewTags`] or [`Refusal::LowCertainty`].
 pub fn select_tags(pairs: &[TagPair], params: &SelectionParams) -> Outcome<[TagPair; 3]> {
     let &[best, second, third, ..] = pairs else {
-        return Outcome::Refused(Refusal::TooFewTags {
-            have: pairs.len(),
-            need: 3,
-        });
+        return Outcome::Refused(Refusal::TooFewTags { have: pairs.len(), need: 3 });
     };
     for (pair, need) in [(best, params.best_above), (third, params.third_above)] {
         let reached = pair.certainty();
-        let suffices = reached > need;
-        if !suffices {
-            return Outcome::Refused(Refusal::LowCertainty {
-                best: reached,
-                need,
-            });
+        // Certainties are finite: `common_tags` checked them.
+        if reached <= need {
+            return Outcome::Refused(Refusal::LowCertainty { best: reached, need });
         }
     }
-    Outcome::Found([best, second, third])
+    Outcome::Found(three_apart(pairs, params).unwrap_or([best, second, third]))
+}
+
+/// The most certain pairs of which none is nearer to a better one than the separation.
+fn three_apart(pairs: &[TagPair], params: &SelectionParams) -> Option<[TagPair; 3]> {
+    let mut chosen: Vec<TagPair> = Vec::with_capacity(3);
+    for pair in pairs.iter().take_while(|pair| pair.certainty() > params.third_above) {
+        let apart = |better: &TagPair| {
+            let between = pair.target.position - better.target.position;
+            between.norm() >= params.min_separation
+        };
+        if chosen.len() < 3 && chosen.iter().all(apart) {
+            chosen.push(*pair);
+        }
+    }
+    chosen.try_into().ok()
 }
 
 /// The positions of pairs, (target, source), metres in their maps.
@@ -187,6 +197,20 @@ mod tests {
         let refused = select_tags(&pairs, &SelectionParams::default());
         let too_few = Refusal::TooFewTags { have: 2, need: 3 };
         assert_eq!(refused.refusal(), Some(&too_few));
+    }
+
+    #[test]
+    fn a_tag_beside_a_better_one_is_passed_over_while_another_is_sure_enough() {
+        let at = |id, x, certainty| TagEstimate { certainty, ..estimate(id, x, 0.0) };
+        let ids = |tags: &[TagEstimate]| {
+            let pairs = common_tags(tags, tags).unwrap();
+            let selected = select_tags(&pairs, &SelectionParams::default()).found().unwrap();
+            selected.map(|pair| pair.tag_id())
+        };
+        let beside = [at(1, 0.0, 0.99), at(2, 0.1, 0.98), at(3, 2.0, 0.97), at(4, 4.0, 0.80)];
+        assert_eq!(ids(&beside), [1, 3, 4]);
+        let unsure = [at(1, 0.0, 0.99), at(2, 0.1, 0.98), at(3, 2.0, 0.97), at(4, 4.0, 0.70)];
+        assert_eq!(ids(&unsure), [1, 2, 3], "nearness never lowers the certainty asked for");
     }
 
     #[test]

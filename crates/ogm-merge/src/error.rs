@@ -1,0 +1,21 @@
+//! Input that cannot be meant.
+
+use ogm_core::GridError;
+
+/// Input to a recipe that cannot be meant.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MergeError {
+    /// A grid or frame.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// A tag reading.
+    #[error(transparent)]
+    Tags(#[from] rfid_loc::TagError),
+    /// The start or the points of the refinement.
+    #[error(transparent)]
+    Refinement(#[from] icp2d::IcpError),
+    /// The fusion.
+    #[error(transparent)]
+    Fusion(#[from] grid_merge::MergeError),
+}

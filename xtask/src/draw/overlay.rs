@@ -1,0 +1,158 @@
+//! Two maps drawn on each other.
+
+use anyhow::{Context, ensure};
+use image::RgbImage;
+use nalgebra::Point2;
+use ogm_core::{
+    CellIndex, ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2, warp_nearest,
+};
+
+use super::palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL};
+use super::raster::{known_box, paint, reduce};
+
+/// The most cells that an overlay may cover: two large maps side by side, but not two maps that a
+/// wild transform put kilometres apart.
+const MAX_OVERLAY_CELLS: i64 = 1 << 26;
+
+const FREE_BIT: u8 = 1;
+const SOURCE_BIT: u8 = 2;
+const TARGET_BIT: u8 = 4;
+
+/// Both maps in the target's axes, cropped to what either knows: walls of the target blue, of the
+/// source orange, of both black; free space pale, the rest white.
+///
+/// # Errors
+/// A transform that is not finite, maps without a known cell, or maps that end up too far apart to
+/// be drawn together.
+pub(crate) fn overlay(
+    target: &OccupancyGrid,
+    source: &OccupancyGrid,
+    target_from_source: Se2,
+) -> anyhow::Result<RgbImage> {
+    ensure!(
+        target_from_source.is_finite(),
+        "the transform {target_from_source:?} is not finite"
+    );
+    let lattice = target.frame();
+    let corners = known_corners(target).into_iter().chain(
+        known_corners(source)
+            .into_iter()
+            .map(|corner| target_from_source * corner),
+    );
+    let cells = corners.map(|corner| lattice.lattice_cell(corner));
+    let (low, high) = cells
+        .map(|cell| (cell, cell))
+        .reduce(|(low, high), (cell, _)| {
+            (
+                [low[0].min(cell[0]), low[1].min(cell[1])],
+                [high[0].max(cell[0]), high[1].max(cell[1])],
+            )
+        })
+        .context("neither map has a known cell to draw")?;
+    let margin = 2;
+    let size = [0, 1].map(|axis| {
+        high[axis]
+            .saturating_sub(low[axis])
+            .saturating_add(1 + 2 * margin)
+    });
+    ensure!(
+        size[0].saturating_mul(size[1]) <= MAX_OVERLAY_CELLS,
+        "the maps span {} × {} cells together, too many to draw",
+        size[0],
+        size[1]
+    );
+    let frame = lattice.shifted(low[0] - margin, low[1] - margin);
+    let size = (usize::try_from(size[0])?, usize::try_from(size[1])?);
+    let mut bits = seen_as(target, &frame, size, Se2::identity(), TARGET_BIT)?;
+    let others = seen_as(source, &frame, size, target_from_source, SOURCE_BIT)?;
+    for (cell, other) in bits.cells_mut().iter_mut().zip(others.cells()) {
+        *cell |= other;
+    }
+    let walls = SOURCE_BIT | TARGET_BIT;
+    Ok(paint(&reduce(&bits, |a, b| a | b), |&bits| {
+        match bits & walls {
+            0 if bits & FREE_BIT != 0 => FREE,
+            0 => BLANK,
+            SOURCE_BIT => SOURCE_WALL,
+            TARGET_BIT => TARGET_WALL,
+            _ => COMMON_WALL,
+        }
+    }))
+}
+
+/// The map resampled into `frame`: `wall` where it is occupied, [`FREE_BIT`] where it is free.
+fn seen_as(
+    map: &OccupancyGrid,
+    frame: &GridFrame,
+    size: (usize, usize),
+    target_from_source: Se2,
+    wall: u8,
+) -> anyhow::Result<Grid<u8>> {
+    let outside = Occupancy::UNKNOWN;
+    let motion = &target_from_source;
+    let cells = warp_nearest(map.cells(), map.frame(), frame, size, motion, outside)?;
+    let thresholds = ClassThresholds::default();
+    Ok(cells.map(|&cell| {
+        let free = if thresholds.is_free(cell) {
+            FREE_BIT
+        } else {
+            0
+        };
+        let wall = if thresholds.is_occupied(cell) {
+            wall
+        } else {
+            0
+        };
+        free | wall
+    }))
+}
+
+/// Centres of the cells at the corners of the known part, in the map's frame.
+fn known_corners(map: &OccupancyGrid) -> Vec<Point2<f64>> {
+    let corners = known_box(map).map(|(low, high)| {
+        [low.column, high.column]
+            .into_iter()
+            .flat_map(move |column| [low.row, high.row].map(move |row| CellIndex { column, row }))
+    });
+    let centres = corners
+        .into_iter()
+        .flatten()
+        .map(|index| map.frame().cell_centre(index));
+    centres.collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::overlay;
+    use crate::draw::palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL};
+    use ogm_core::{GridFrame, OccupancyGrid, Se2};
+
+    fn map(picture: &str) -> OccupancyGrid {
+        let frame = GridFrame::new(0.5, Se2::new(3.0, -2.0, 0.3)).unwrap();
+        OccupancyGrid::from_ascii(frame, picture).unwrap()
+    }
+
+    /// The source lies two cells to the right of where it was drawn, in the rotated target frame.
+    #[test]
+    fn an_overlay_shows_whose_wall_it_is() {
+        let target = map("###\n...");
+        let shift = target.frame().map_from_grid() * Se2::new(1.0, 0.0, 0.0);
+        let target_from_source = shift * target.frame().map_from_grid().inverse();
+        let image = overlay(&target, &target, target_from_source).unwrap();
+        assert_eq!(image.dimensions(), (9, 6), "five by two and a margin");
+        let walls: Vec<_> = (0..9).map(|x| *image.get_pixel(x, 2)).collect();
+        let (t, b, s) = (TARGET_WALL, COMMON_WALL, SOURCE_WALL);
+        assert_eq!(walls, [BLANK, BLANK, t, t, b, s, s, BLANK, BLANK]);
+        assert_eq!(*image.get_pixel(2, 3), FREE);
+    }
+
+    #[test]
+    fn overlays_that_cannot_be_drawn_are_errors() {
+        let (known, unknown) = (map("#"), map("?"));
+        assert!(overlay(&known, &known, Se2::new(f64::NAN, 0.0, 0.0)).is_err());
+        assert!(overlay(&known, &known, Se2::new(1e8, 1e8, 0.0)).is_err());
+        assert!(overlay(&known, &known, Se2::new(1e300, 0.0, 0.0)).is_err());
+        assert!(overlay(&unknown, &unknown, Se2::identity()).is_err());
+        assert!(overlay(&known, &unknown, Se2::identity()).is_ok());
+    }
+}

@@ -49,13 +49,8 @@ fn may_depend(from: &str, to: &str, for_tests_only: bool) -> bool {
 /// Edges of the output of `cargo metadata --no-deps` that the layers forbid, and what keeps them
 /// from being judged.
 fn violations(metadata: &Value) -> Vec<String> {
-    let packages = metadata["packages"]
-        .as_array()
-        .map_or(&[][..], Vec::as_slice);
-    let names: Vec<&str> = packages
-        .iter()
-        .filter_map(|package| package["name"].as_str())
-        .collect();
+    let packages = metadata["packages"].as_array().map_or(&[][..], Vec::as_slice);
+    let names: Vec<&str> = packages.iter().filter_map(|package| package["name"].as_str()).collect();
     if !names.contains(&"ogm-core") {
         return vec!["the metadata holds no ogm-core".to_owned()];
     }
@@ -71,10 +66,7 @@ fn violations(metadata: &Value) -> Vec<String> {
             }
             let home = HOMES.iter().find(|(guest, _)| *guest == to);
             if let Some((_, hosts)) = home.filter(|(_, hosts)| !hosts.contains(&from)) {
-                found.push(format!(
-                    "{from} depends on {to}, which is for {}",
-                    hosts.join(", ")
-                ));
+                found.push(format!("{from} depends on {to}, which is for {}", hosts.join(", ")));
             }
         }
     }
@@ -96,11 +88,7 @@ mod tests {
             .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
             .output()
             .unwrap();
-        assert!(
-            output.status.success(),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
         let found = violations(&serde_json::from_slice(&output.stdout).unwrap());
         assert!(found.is_empty(), "{}", found.join("\n"));
     }
@@ -137,10 +125,7 @@ mod tests {
         ] {
             let found = violations(&edge(from, to, kind.clone()));
             assert_eq!(found.len(), 1, "{from} to {to}, {kind}: {found:?}");
-            assert!(
-                found[0].starts_with(&format!("{from} depends on {to}")),
-                "{found:?}"
-            );
+            assert!(found[0].starts_with(&format!("{from} depends on {to}")), "{found:?}");
         }
     }
 

@@ -229,10 +229,7 @@ mod tests {
     fn wilson_intervals_match_newcombe() {
         for (successes, trials, low, high) in [(81, 263, 0.2553, 0.3662), (0, 20, 0.0, 0.1611)] {
             let interval = wilson_ci95(successes, trials);
-            assert!(
-                close(interval.0, low, 5e-5) && close(interval.1, high, 5e-5),
-                "{interval:?}"
-            );
+            assert!(close(interval.0, low, 5e-5) && close(interval.1, high, 5e-5), "{interval:?}");
         }
         assert_eq!(wilson_ci95(0, 0), (0.0, 1.0));
     }

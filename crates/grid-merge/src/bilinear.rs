@@ -24,16 +24,8 @@ pub(crate) fn warp_bilinear(
         Occupancy::UNKNOWN,
     )?;
     let source_cells = CellMap::new(target_frame, source_frame, &target_from_source.inverse());
-    let blend = Blend {
-        source,
-        log_odds: LogOddsOfByte::new(),
-        rounding: ByteOfLogOdds::new(),
-    };
-    for (row, cells) in target
-        .cells_mut()
-        .chunks_exact_mut(target_size.0)
-        .enumerate()
-    {
+    let blend = Blend { source, log_odds: LogOddsOfByte::new(), rounding: ByteOfLogOdds::new() };
+    for (row, cells) in target.cells_mut().chunks_exact_mut(target_size.0).enumerate() {
         let start = source_cells.at(0.5, row as f64 + 0.5);
         for (column, cell) in cells.iter_mut().enumerate() {
             if cell.is_known() {
@@ -75,10 +67,7 @@ impl Blend<'_> {
         let mix = |pair: &[Occupancy]| {
             (1.0 - right) * self.log_odds.of(pair[0]) + right * self.log_odds.of(pair[1])
         };
-        Some(
-            self.rounding
-                .round((1.0 - up) * mix(lower) + up * mix(upper)),
-        )
+        Some(self.rounding.round((1.0 - up) * mix(lower) + up * mix(upper)))
     }
 }
 
@@ -92,10 +81,7 @@ mod tests {
     }
 
     fn row(probabilities: &[f64]) -> Grid<Occupancy> {
-        let row: Vec<_> = probabilities
-            .iter()
-            .map(|&p| Occupancy::from_probability(p))
-            .collect();
+        let row: Vec<_> = probabilities.iter().map(|&p| Occupancy::from_probability(p)).collect();
         Grid::new(row.len(), 3, row.repeat(3)).unwrap()
     }
 
@@ -107,13 +93,8 @@ mod tests {
     fn halfway_between_opposite_cells_is_one_half() {
         let source = row(&[0.9, 0.1, 0.1]);
         let target_from_source = Se2::new(-0.5, 0.0, 0.0);
-        let warped = warp_bilinear(
-            &source,
-            &unit_frame(),
-            &unit_frame(),
-            (3, 3),
-            &target_from_source,
-        );
+        let warped =
+            warp_bilinear(&source, &unit_frame(), &unit_frame(), (3, 3), &target_from_source);
         let warped = warped.unwrap();
         assert_eq!(middle(&warped, 0), Occupancy::from_probability(0.5));
         assert_eq!(middle(&warped, 1), Occupancy::FREE);
@@ -123,13 +104,8 @@ mod tests {
     fn beside_unknown_the_nearest_cell_speaks_alone() {
         let source = row(&[0.9, 0.1, f64::NAN]);
         let target_from_source = Se2::new(-0.4, 0.0, 0.0);
-        let warped = warp_bilinear(
-            &source,
-            &unit_frame(),
-            &unit_frame(),
-            (3, 3),
-            &target_from_source,
-        );
+        let warped =
+            warp_bilinear(&source, &unit_frame(), &unit_frame(), (3, 3), &target_from_source);
         let warped = warped.unwrap();
         assert_eq!(middle(&warped, 1), Occupancy::FREE);
         assert_eq!(middle(&warped, 2), Occupancy::UNKNOWN);

@@ -36,9 +36,7 @@ pub fn coarsen(
 
     let log_odds = LogOddsOfByte::new();
     let rounding = ByteOfLogOdds::new();
-    let columns: Vec<usize> = (0..map.width())
-        .map(|column| coarse_cell(column, ratio))
-        .collect();
+    let columns: Vec<usize> = (0..map.width()).map(|column| coarse_cell(column, ratio)).collect();
     let mut tallies = vec![Tally::default(); width];
     let mut fine_rows = map.cells().rows().enumerate().peekable();
     for (row, output) in coarse.cells_mut().chunks_exact_mut(width).enumerate() {
@@ -82,10 +80,7 @@ struct Tally {
 impl Tally {
     fn add(&mut self, log_odds: f64, occupied: bool) {
         if occupied && !self.occupied {
-            *self = Self {
-                occupied,
-                ..Self::default()
-            };
+            *self = Self { occupied, ..Self::default() };
         }
         if occupied == self.occupied {
             self.log_odds += log_odds;
@@ -112,9 +107,7 @@ mod tests {
 
     fn coarse_picture(resolution: f64, picture: &str, to: f64) -> String {
         let thresholds = ClassThresholds::default();
-        coarsen(&map(resolution, picture), to, &thresholds)
-            .unwrap()
-            .to_ascii()
+        coarsen(&map(resolution, picture), to, &thresholds).unwrap().to_ascii()
     }
 
     #[test]
@@ -137,26 +130,14 @@ mod tests {
     #[test]
     fn the_same_resolution_is_a_copy_and_a_finer_one_an_error() {
         let (source, thresholds) = (map(0.05, "#.?"), ClassThresholds::default());
-        assert_eq!(
-            coarsen(&source, f64::from(0.05_f32), &thresholds).unwrap(),
-            source
-        );
+        assert_eq!(coarsen(&source, f64::from(0.05_f32), &thresholds).unwrap(), source);
         let finer = coarsen(&source, 0.04, &thresholds);
-        assert_eq!(
-            finer,
-            Err(MergeError::FinerThanSource {
-                have: 0.05,
-                asked: 0.04
-            })
-        );
+        assert_eq!(finer, Err(MergeError::FinerThanSource { have: 0.05, asked: 0.04 }));
         for resolution in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let bad = coarsen(&source, resolution, &thresholds);
             assert!(matches!(bad, Err(MergeError::Grid(_))), "{resolution}");
         }
-        assert_eq!(
-            coarsen(&source, 1e300, &thresholds).unwrap().to_ascii(),
-            "#\n"
-        );
+        assert_eq!(coarsen(&source, 1e300, &thresholds).unwrap().to_ascii(), "#\n");
     }
 
     proptest! {

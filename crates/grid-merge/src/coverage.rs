@@ -56,10 +56,7 @@ pub fn merge_coverage(
         add(&mut union, &Layer { column, row, cells });
     }
     Ok(match params.mapping {
-        Mapping::Forward {
-            gaps: GapTreatment::BlurEverywhere,
-            ..
-        } => blur_coverage(&union),
+        Mapping::Forward { gaps: GapTreatment::BlurEverywhere, .. } => blur_coverage(&union),
         _ => union,
     })
 }

@@ -53,11 +53,7 @@ impl ByteOfLogOdds {
             let start = index as f64 / BUCKETS_A_UNIT - LOG_ODDS_LIMIT;
             let byte = Occupancy::from_log_odds(start).byte();
             let p_next = (f64::from(byte) + 0.5) / 254.0;
-            let next_from = if p_next < 1.0 {
-                log_odds(p_next)
-            } else {
-                f64::INFINITY
-            };
+            let next_from = if p_next < 1.0 { log_odds(p_next) } else { f64::INFINITY };
             Bucket { next_from, byte }
         });
         Self(buckets.collect())
@@ -88,11 +84,7 @@ mod tests {
 
     #[test]
     fn independent_evidence_reinforces_and_weakens_as_worked_out() {
-        for (a, b, expected) in [
-            (0.8, 0.7, 0.903_226),
-            (0.8, 0.3, 0.631_579),
-            (0.8, 0.2, 0.5),
-        ] {
+        for (a, b, expected) in [(0.8, 0.7, 0.903_226), (0.8, 0.3, 0.631_579), (0.8, 0.2, 0.5)] {
             let fused = probability_from_log_odds(fuse_log_odds(log_odds(a), log_odds(b)));
             assert!((fused - expected).abs() < 5e-7, "{a} and {b} gave {fused}");
         }

@@ -100,10 +100,8 @@ mod tests {
     }
 
     fn fuse_one(rule: FusionRule, probabilities: &[f64]) -> Fused {
-        let layers: Vec<_> = probabilities
-            .iter()
-            .map(|&p| vec![Occupancy::from_probability(p).byte()])
-            .collect();
+        let layers: Vec<_> =
+            probabilities.iter().map(|&p| vec![Occupancy::from_probability(p).byte()]).collect();
         fuse_bytes(rule, &layers)
     }
 

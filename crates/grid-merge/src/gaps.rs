@@ -34,9 +34,7 @@ pub(crate) fn fill_holes<T: Copy + PartialEq>(
             let columns = column.saturating_sub(1)..(column + 2).min(width);
             let count: u8 = present_in_column[columns.clone()].iter().sum();
             if count >= NEIGHBOURS_NEEDED {
-                let near = rows
-                    .clone()
-                    .flat_map(|near| &cells.row(near)[columns.clone()]);
+                let near = rows.clone().flat_map(|near| &cells.row(near)[columns.clone()]);
                 present.clear();
                 present.extend(near.filter(|&&neighbour| neighbour != absent));
                 *cell = fill(&present);
@@ -133,17 +131,12 @@ mod tests {
 
     fn map(picture: &str) -> Grid<Occupancy> {
         let frame = GridFrame::new(1.0, Se2::identity()).unwrap();
-        OccupancyGrid::from_ascii(frame, picture)
-            .unwrap()
-            .cells()
-            .clone()
+        OccupancyGrid::from_ascii(frame, picture).unwrap().cells().clone()
     }
 
     fn filled(cells: &Grid<Occupancy>) -> Grid<Occupancy> {
         let thresholds = ClassThresholds::default();
-        fill_holes(cells, Occupancy::UNKNOWN, |known| {
-            mean_of_majority(known, &thresholds)
-        })
+        fill_holes(cells, Occupancy::UNKNOWN, |known| mean_of_majority(known, &thresholds))
     }
 
     #[test]
@@ -184,13 +177,7 @@ mod tests {
     #[test]
     fn blurred_coverage_closes_a_gap_and_drops_a_speck() {
         let covered = |picture: &str| map(picture).map(|&cell| cell == Occupancy::FREE);
-        assert_eq!(
-            blur_coverage(&covered("...\n.?.\n...")),
-            covered("...\n...\n...")
-        );
-        assert_eq!(
-            blur_coverage(&covered("???\n?.?\n???")),
-            covered("???\n???\n???")
-        );
+        assert_eq!(blur_coverage(&covered("...\n.?.\n...")), covered("...\n...\n..."));
+        assert_eq!(blur_coverage(&covered("???\n?.?\n???")), covered("???\n???\n???"));
     }
 }

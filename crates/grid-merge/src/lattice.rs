@@ -55,10 +55,7 @@ impl Footprint {
             let point = frame.point_from_cells(Point2::new(column, row));
             lattice.cells_from_point(*reference_from_map * point)
         });
-        if !corners
-            .iter()
-            .all(|c| c.x.abs() < FARTHEST && c.y.abs() < FARTHEST)
-        {
+        if !corners.iter().all(|c| c.x.abs() < FARTHEST && c.y.abs() < FARTHEST) {
             return Err(GridError::TooLarge {
                 width: usize::MAX,
                 height: usize::MAX,
@@ -66,13 +63,10 @@ impl Footprint {
             });
         }
         let shift = corners[0].map(f64::round);
-        let whole_cells = corners
-            .iter()
-            .zip(corner_cells)
-            .all(|(corner, (column, row))| {
-                let off = corner - shift - Point2::new(column, row).coords;
-                off.x.abs() <= ON_LATTICE && off.y.abs() <= ON_LATTICE
-            });
+        let whole_cells = corners.iter().zip(corner_cells).all(|(corner, (column, row))| {
+            let off = corner - shift - Point2::new(column, row).coords;
+            off.x.abs() <= ON_LATTICE && off.y.abs() <= ON_LATTICE
+        });
         if whole_cells {
             return Ok(Self {
                 from: [shift.x, shift.y],
@@ -93,11 +87,7 @@ impl Footprint {
 
     /// A grid of `size` from cell (0, 0) of the lattice.
     pub(crate) fn of_grid(size: (usize, usize)) -> Self {
-        Self {
-            from: [0.0; 2],
-            to: [size.0 as f64, size.1 as f64],
-            whole_cells: true,
-        }
+        Self { from: [0.0; 2], to: [size.0 as f64, size.1 as f64], whole_cells: true }
     }
 
     /// The smallest rectangle that holds both.
@@ -114,34 +104,21 @@ impl Footprint {
         let from = [0, 1].map(|axis| self.from[axis].max(outer.from[axis]));
         let to = [0, 1].map(|axis| self.to[axis].min(outer.to[axis]));
         let whole_cells = self.whole_cells && from == self.from && to == self.to;
-        (from[0] < to[0] && from[1] < to[1]).then_some(Self {
-            from,
-            to,
-            whole_cells,
-        })
+        (from[0] < to[0] && from[1] < to[1]).then_some(Self { from, to, whole_cells })
     }
 
     /// Columns and rows.
     pub(crate) fn size(&self) -> (usize, usize) {
-        (
-            to_count(self.to[0] - self.from[0]),
-            to_count(self.to[1] - self.from[1]),
-        )
+        (to_count(self.to[0] - self.from[0]), to_count(self.to[1] - self.from[1]))
     }
 
     /// Column and row of its first cell, counted from the first cell of `outer`, which holds it.
     pub(crate) fn offset_in(&self, outer: &Self) -> (usize, usize) {
-        (
-            to_count(self.from[0] - outer.from[0]),
-            to_count(self.from[1] - outer.from[1]),
-        )
+        (to_count(self.from[0] - outer.from[0]), to_count(self.from[1] - outer.from[1]))
     }
 
     /// The frame of its first cell.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "whole numbers below 2⁵², checked in new"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "whole numbers below 2⁵², checked in new")]
     pub(crate) fn frame(&self, lattice: &GridFrame) -> GridFrame {
         lattice.shifted(self.from[0] as i64, self.from[1] as i64)
     }

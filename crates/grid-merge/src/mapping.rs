@@ -45,13 +45,8 @@ impl<'a, T: Copy + PartialEq> Source<'a, T> {
         lattice: &GridFrame,
         mapping: &Mapping,
     ) -> Result<Footprint, GridError> {
-        let corners_land = matches!(
-            mapping,
-            Mapping::Forward {
-                rounding: ForwardRounding::FloorOfInteger,
-                ..
-            }
-        );
+        let corners_land =
+            matches!(mapping, Mapping::Forward { rounding: ForwardRounding::FloorOfInteger, .. });
         let pose = &self.reference_from_map;
         Footprint::new(lattice, &self.frame, self.size(), pose, corners_land)
     }

@@ -95,19 +95,13 @@ pub fn transform_grid(
     target_from_source: &Se2,
     params: &MergeParams,
 ) -> Result<OccupancyGrid, MergeError> {
-    let placed = PlacedMap {
-        map: source,
-        reference_from_map: *target_from_source,
-    };
+    let placed = PlacedMap { map: source, reference_from_map: *target_from_source };
     let lattice = lattice_of(&[placed], params)?;
     let map = not_finer(0, source, &lattice, params)?;
     let moved = source_of(&map, *target_from_source);
     let footprint = moved.footprint(&lattice, &params.mapping)?;
     let cells = resample(moved, &lattice, &footprint, params)?.into_owned();
-    Ok(OccupancyGrid::new(
-        footprint.frame(&lattice),
-        blurred(cells, params),
-    ))
+    Ok(OccupancyGrid::new(footprint.frame(&lattice), blurred(cells, params)))
 }
 
 /// The output's lattice, once it is clear that all poses can be meant.
@@ -118,12 +112,7 @@ fn lattice_of(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<GridFrame,
     }
     let size = (first.map.width(), first.map.height());
     let pose = &first.reference_from_map;
-    Ok(output_lattice(
-        first.map.frame(),
-        size,
-        pose,
-        params.resolution,
-    )?)
+    Ok(output_lattice(first.map.frame(), size, pose, params.resolution)?)
 }
 
 pub(crate) fn check_pose(map: usize, reference_from_map: &Se2) -> Result<(), MergeError> {
@@ -171,11 +160,7 @@ fn not_finer<'a>(
 }
 
 fn source_of(map: &OccupancyGrid, reference_from_map: Se2) -> Source<'_, Occupancy> {
-    Source {
-        cells: Cow::Borrowed(map.cells()),
-        frame: *map.frame(),
-        reference_from_map,
-    }
+    Source { cells: Cow::Borrowed(map.cells()), frame: *map.frame(), reference_from_map }
 }
 
 fn resample<'a>(
@@ -196,25 +181,15 @@ fn resample<'a>(
         return Ok(Cow::Owned(warped));
     }
     let fill = |known: &[Occupancy]| mean_of_majority(known, &params.thresholds);
-    Ok(source.onto(
-        lattice,
-        footprint,
-        &params.mapping,
-        Occupancy::UNKNOWN,
-        fill,
-    )?)
+    Ok(source.onto(lattice, footprint, &params.mapping, Occupancy::UNKNOWN, fill)?)
 }
 
 fn blurred(cells: Grid<Occupancy>, params: &MergeParams) -> Grid<Occupancy> {
     match params.mapping {
-        Mapping::Forward {
-            gaps: GapTreatment::BlurEverywhere,
-            ..
-        } => blur_everywhere(&cells),
-        Mapping::Forward {
-            gaps: GapTreatment::PrintedCondition,
-            ..
-        } => blur_free(&cells, &params.thresholds),
+        Mapping::Forward { gaps: GapTreatment::BlurEverywhere, .. } => blur_everywhere(&cells),
+        Mapping::Forward { gaps: GapTreatment::PrintedCondition, .. } => {
+            blur_free(&cells, &params.thresholds)
+        }
         _ => cells,
     }
 }

@@ -49,11 +49,7 @@ impl Tables {
                 CellClass::Undecided | CellClass::Unknown => 0,
             };
         }
-        Self {
-            log_odds: LogOddsOfByte::new(),
-            rounding: ByteOfLogOdds::new(),
-            said,
-        }
+        Self { log_odds: LogOddsOfByte::new(), rounding: ByteOfLogOdds::new(), said }
     }
 
     /// Takes in one layer's part of a row: the first known value of a cell goes to `cells`, all of
@@ -167,11 +163,7 @@ impl PairVerdicts {
             }
             let mut overlap = tables.first(first);
             tables.add(&mut overlap, second);
-            let kind = if overlap.is_conflict() {
-                PairKind::Conflict
-            } else {
-                PairKind::Compared
-            };
+            let kind = if overlap.is_conflict() { PairKind::Conflict } else { PairKind::Compared };
             let cell = tables.verdict(rule, first, &overlap);
             PairVerdict { cell, kind }
         };

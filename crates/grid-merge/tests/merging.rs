@@ -32,17 +32,11 @@ fn room(frame: GridFrame) -> OccupancyGrid {
             }
         })
     });
-    OccupancyGrid::new(
-        frame,
-        Grid::new(width, height, cells.collect()).expect("a valid grid"),
-    )
+    OccupancyGrid::new(frame, Grid::new(width, height, cells.collect()).expect("a valid grid"))
 }
 
 fn placed(map: &OccupancyGrid, reference_from_map: Se2) -> PlacedMap<'_> {
-    PlacedMap {
-        map,
-        reference_from_map,
-    }
+    PlacedMap { map, reference_from_map }
 }
 
 fn all_mappings() -> [Mapping; 3] {
@@ -57,15 +51,9 @@ fn all_mappings() -> [Mapping; 3] {
 fn the_first_map_keeps_its_cells_and_the_frame_is_the_reference() {
     let (first, second) = (room(frame(-1.03, 2.07, 0.0)), room(frame(0.4, -0.2, 0.3)));
     for mapping in all_mappings() {
-        let params = MergeParams {
-            mapping,
-            fusion: FusionRule::PreferFirst,
-            ..MergeParams::default()
-        };
-        let maps = [
-            placed(&first, Se2::identity()),
-            placed(&second, Se2::new(1.2, -0.7, 0.4)),
-        ];
+        let params =
+            MergeParams { mapping, fusion: FusionRule::PreferFirst, ..MergeParams::default() };
+        let maps = [placed(&first, Se2::identity()), placed(&second, Se2::new(1.2, -0.7, 0.4))];
         let merged = merge(&maps, &params).unwrap().map;
         assert_eq!(merged.frame().map_from_grid().theta(), 0.0);
         for (index, &cell) in first.cells().indexed() {
@@ -82,18 +70,11 @@ fn the_first_map_keeps_its_cells_and_the_frame_is_the_reference() {
 fn a_map_merged_with_itself_has_no_conflict_and_more_certainty() {
     let map = room(frame(0.0, 0.0, 0.0));
     let merged = merge(&[placed(&map, Se2::identity()); 2], &MergeParams::default()).unwrap();
-    let known = map
-        .cells()
-        .cells()
-        .iter()
-        .filter(|cell| cell.is_known())
-        .count();
+    let known = map.cells().cells().iter().filter(|cell| cell.is_known()).count();
     assert_eq!((merged.compared, merged.conflict_count), (known, 0));
     let strengthened = Occupancy::from_probability(0.81 / 0.82);
     assert_eq!(
-        merged
-            .map
-            .at(map.frame().cell_centre(CellIndex { column: 9, row: 30 })),
+        merged.map.at(map.frame().cell_centre(CellIndex { column: 9, row: 30 })),
         strengthened
     );
 }
@@ -102,10 +83,7 @@ fn a_map_merged_with_itself_has_no_conflict_and_more_certainty() {
 fn conflicts_are_shown_where_they_are() {
     let first = OccupancyGrid::from_ascii(frame(0.0, 0.0, 0.0), "..#?").unwrap();
     let second = OccupancyGrid::from_ascii(frame(0.05, 0.0, 0.0), "#.#").unwrap();
-    let maps = [
-        placed(&first, Se2::identity()),
-        placed(&second, Se2::identity()),
-    ];
+    let maps = [placed(&first, Se2::identity()), placed(&second, Se2::identity())];
     let merged = merge(&maps, &MergeParams::default()).unwrap();
     assert_eq!(merged.map.to_ascii(), ".++#\n");
     assert_eq!(merged.conflicts.cells(), [false, true, true, false]);
@@ -123,10 +101,7 @@ fn three_maps_give_the_same_bytes_in_any_order() {
         merge(&maps, &MergeParams::default()).unwrap()
     };
     let one = merged([0, 1, 2]);
-    assert!(
-        one.conflict_count > 100,
-        "the rooms must disagree somewhere"
-    );
+    assert!(one.conflict_count > 100, "the rooms must disagree somewhere");
     assert_eq!(one, merged([2, 0, 1]));
     assert_eq!(one, merged([1, 0, 2]));
 }
@@ -138,19 +113,12 @@ fn a_finer_map_keeps_its_thin_walls_in_a_coarser_output() {
     for cell in &mut fine.cells_mut().cells_mut()[60 * 17..60 * 18] {
         *cell = Occupancy::OCCUPIED;
     }
-    let params = MergeParams {
-        resolution: Some(RESOLUTION),
-        ..MergeParams::default()
-    };
+    let params = MergeParams { resolution: Some(RESOLUTION), ..MergeParams::default() };
     let coarse = transform_grid(&fine, &Se2::new(0.3, 0.1, 0.0), &params).unwrap();
     assert_eq!(coarse.frame().resolution(), RESOLUTION);
     let walls = coarse.occupied_points(&ClassThresholds::default());
     assert_eq!(walls.len(), 24, "1.2 m of wall in cells of 0.05 m");
-    assert!(
-        walls
-            .iter()
-            .all(|point| (point.y - 0.1 - 0.35).abs() <= 0.035)
-    );
+    assert!(walls.iter().all(|point| (point.y - 0.1 - 0.35).abs() <= 0.035));
 }
 
 #[test]
@@ -158,10 +126,7 @@ fn coverage_lies_where_the_map_it_belongs_to_lies() {
     let (first, second) = (room(frame(0.0, 0.0, 0.0)), room(frame(0.0, 0.0, 0.0)));
     let pose = Se2::new(0.72, -0.31, 2.2);
     for mapping in [Mapping::default(), MergeParams::paper().mapping] {
-        let params = MergeParams {
-            mapping,
-            ..MergeParams::default()
-        };
+        let params = MergeParams { mapping, ..MergeParams::default() };
         let maps = [placed(&first, Se2::identity()), placed(&second, pose)];
         let merged = merge(&maps, &params).unwrap().map;
         let known = first.cells().map(|cell| cell.is_known());
@@ -171,18 +136,11 @@ fn coverage_lies_where_the_map_it_belongs_to_lies() {
             reference_from_map: placed.reference_from_map,
         });
         let covered = merge_coverage(&fields, &merged, &params).unwrap();
-        assert_eq!(
-            covered,
-            merged.cells().map(|cell| cell.is_known()),
-            "{mapping:?}"
-        );
+        assert_eq!(covered, merged.cells().map(|cell| cell.is_known()), "{mapping:?}");
 
         let cut = OccupancyGrid::new(*first.frame(), first.cells().clone());
         let inside = merge_coverage(&fields, &cut, &params).unwrap();
-        assert_eq!(
-            (inside.width(), inside.height()),
-            (cut.width(), cut.height())
-        );
+        assert_eq!((inside.width(), inside.height()), (cut.width(), cut.height()));
         for (index, &covered) in inside.indexed() {
             let known = merged.at(cut.frame().cell_centre(index)).is_known();
             // A hole at the cut has fewer neighbours to be filled from.
@@ -198,55 +156,27 @@ fn what_cannot_be_meant_is_an_error() {
     let map = room(frame(0.0, 0.0, 0.0));
     let params = MergeParams::default();
     assert_eq!(merge(&[], &params), Err(MergeError::NoMaps));
-    let nan = [
-        placed(&map, Se2::identity()),
-        placed(&map, Se2::new(f64::NAN, 0.0, 0.0)),
-    ];
-    assert!(matches!(
-        merge(&nan, &params),
-        Err(MergeError::NonFinitePose { map: 1, .. })
-    ));
-    let far = [
-        placed(&map, Se2::identity()),
-        placed(&map, Se2::new(1e7, 1e7, 0.0)),
-    ];
-    assert!(matches!(
-        merge(&far, &params),
-        Err(MergeError::Grid(GridError::TooLarge { .. }))
-    ));
+    let nan = [placed(&map, Se2::identity()), placed(&map, Se2::new(f64::NAN, 0.0, 0.0))];
+    assert!(matches!(merge(&nan, &params), Err(MergeError::NonFinitePose { map: 1, .. })));
+    let far = [placed(&map, Se2::identity()), placed(&map, Se2::new(1e7, 1e7, 0.0))];
+    assert!(matches!(merge(&far, &params), Err(MergeError::Grid(GridError::TooLarge { .. }))));
     for resolution in [1e-9, 0.0, f64::NAN] {
-        let params = MergeParams {
-            resolution: Some(resolution),
-            ..params
-        };
+        let params = MergeParams { resolution: Some(resolution), ..params };
         let merged = merge(&[placed(&map, Se2::identity())], &params);
         assert!(matches!(merged, Err(MergeError::Grid(_))), "{resolution}");
     }
-    let finer = MergeParams {
-        resolution: Some(0.02),
-        ..MergeParams::paper()
-    };
+    let finer = MergeParams { resolution: Some(0.02), ..MergeParams::paper() };
     let scattered = transform_grid(&map, &Se2::new(0.0, 0.0, 0.3), &finer);
-    assert!(matches!(
-        scattered,
-        Err(MergeError::TooCoarseToScatter { map: 0, .. })
-    ));
+    assert!(matches!(scattered, Err(MergeError::TooCoarseToScatter { map: 0, .. })));
 }
 
 #[test]
 fn forward_mapping_by_quarter_turns_is_exact_under_every_gap_treatment_that_keeps_values() {
     let map = room(frame(0.0, 0.0, 0.0));
-    let inverse = transform_grid(
-        &map,
-        &Se2::new(0.5, 0.25, FRAC_PI_2),
-        &MergeParams::default(),
-    );
+    let inverse = transform_grid(&map, &Se2::new(0.5, 0.25, FRAC_PI_2), &MergeParams::default());
     for gaps in [GapTreatment::None, GapTreatment::HoleFill] {
         let params = MergeParams {
-            mapping: Mapping::Forward {
-                rounding: Default::default(),
-                gaps,
-            },
+            mapping: Mapping::Forward { rounding: Default::default(), gaps },
             ..MergeParams::default()
         };
         let forward = transform_grid(&map, &Se2::new(0.5, 0.25, FRAC_PI_2), &params);

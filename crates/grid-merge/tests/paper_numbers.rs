@@ -15,17 +15,11 @@ fn unit_map(
     let indices = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
     let cells = indices.map(|(column, row)| cell(column, row)).collect();
     let frame = GridFrame::new(1.0, Se2::identity()).expect("a valid frame");
-    OccupancyGrid::new(
-        frame,
-        Grid::new(width, height, cells).expect("a valid grid"),
-    )
+    OccupancyGrid::new(frame, Grid::new(width, height, cells).expect("a valid grid"))
 }
 
 fn forward(rounding: ForwardRounding, gaps: GapTreatment) -> MergeParams {
-    MergeParams {
-        mapping: Mapping::Forward { rounding, gaps },
-        ..MergeParams::default()
-    }
+    MergeParams { mapping: Mapping::Forward { rounding, gaps }, ..MergeParams::default() }
 }
 
 fn is_known(map: &OccupancyGrid, column: i64, row: i64) -> bool {
@@ -37,11 +31,7 @@ fn is_known(map: &OccupancyGrid, column: i64, row: i64) -> bool {
 }
 
 fn known_count(map: &OccupancyGrid) -> usize {
-    map.cells()
-        .cells()
-        .iter()
-        .filter(|cell| cell.is_known())
-        .count()
+    map.cells().cells().iter().filter(|cell| cell.is_known()).count()
 }
 
 /// The paper's example: 30° about (200, 200), which lands on `centre_image`.
@@ -60,18 +50,11 @@ fn t_f1_the_25_points_land_as_printed() {
         (102.0, [264.129_511, 166.129_511]),
     ] {
         let landed = target_from_source * Point2::new(x, x);
-        assert!(
-            (landed - Point2::from(expected)).norm() < 1e-6,
-            "{x}: {landed}"
-        );
+        assert!((landed - Point2::from(expected)).norm() < 1e-6, "{x}: {landed}");
     }
 
     let points = unit_map(103, 103, |column, row| {
-        if column >= 98 && row >= 98 {
-            Occupancy::OCCUPIED
-        } else {
-            Occupancy::UNKNOWN
-        }
+        if column >= 98 && row >= 98 { Occupancy::OCCUPIED } else { Occupancy::UNKNOWN }
     });
     let printed = forward(ForwardRounding::FloorOfInteger, GapTreatment::None);
     let floor = transform_grid(&points, &target_from_source, &printed).unwrap();
@@ -88,19 +71,14 @@ fn t_f1_the_25_points_land_as_printed() {
 /// Unknown cells with at least three of four neighbours known.
 fn gap_count(map: &OccupancyGrid) -> usize {
     let neighbours = |index: CellIndex| {
-        let (column, row) = (
-            index.column.cast_signed() as i64,
-            index.row.cast_signed() as i64,
-        );
+        let (column, row) = (index.column.cast_signed() as i64, index.row.cast_signed() as i64);
         [(1, 0), (-1, 0), (0, 1), (0, -1)]
             .into_iter()
             .filter(|(dx, dy)| is_known(map, column + dx, row + dy))
             .count()
     };
     let cells = map.cells().indexed();
-    cells
-        .filter(|&(index, cell)| !cell.is_known() && neighbours(index) >= 3)
-        .count()
+    cells.filter(|&(index, cell)| !cell.is_known() && neighbours(index) >= 3).count()
 }
 
 #[test]
@@ -137,29 +115,17 @@ fn t_f2_the_gap_share_of_forward_mapping_is_that_of_the_formula() {
         let inverse = MergeParams::default();
         let footprint = transform_grid(&field, &target_from_source, &inverse).unwrap();
         let is_gap = |index: CellIndex| {
-            let (column, row) = (
-                index.column.cast_signed() as i64,
-                index.row.cast_signed() as i64,
-            );
+            let (column, row) = (index.column.cast_signed() as i64, index.row.cast_signed() as i64);
             is_known(&footprint, column, row) && !is_known(&scattered, column, row)
         };
         let all_gaps = footprint.cells().indexed().map(|(index, _)| index);
         let gaps: Vec<_> = all_gaps.filter(|&index| is_gap(index)).collect();
         let share = gaps.len() as f64 / known_count(&footprint) as f64;
-        assert!(
-            (share / expected - 1.0).abs() < 0.05,
-            "{degrees}°: {share:.4}"
-        );
+        assert!((share / expected - 1.0).abs() < 0.05, "{degrees}°: {share:.4}");
 
         let pairs = gaps.iter().filter(|&&index| {
-            let right = CellIndex {
-                column: index.column + 1,
-                ..index
-            };
-            let above = CellIndex {
-                row: index.row + 1,
-                ..index
-            };
+            let right = CellIndex { column: index.column + 1, ..index };
+            let above = CellIndex { row: index.row + 1, ..index };
             gap_is_inside(&footprint, index) && (is_gap(right) || is_gap(above))
         });
         assert_eq!(pairs.count(), 0, "{degrees}°: gaps must be single cells");
@@ -168,10 +134,7 @@ fn t_f2_the_gap_share_of_forward_mapping_is_that_of_the_formula() {
 
 /// Whether all cells up to two away are in the footprint.
 fn gap_is_inside(footprint: &OccupancyGrid, index: CellIndex) -> bool {
-    let (column, row) = (
-        index.column.cast_signed() as i64,
-        index.row.cast_signed() as i64,
-    );
+    let (column, row) = (index.column.cast_signed() as i64, index.row.cast_signed() as i64);
     (-2..=2).all(|dy| (-2..=2).all(|dx| is_known(footprint, column + dx, row + dy)))
 }
 
@@ -209,11 +172,7 @@ fn count(map: &OccupancyGrid, footprint: &OccupancyGrid) -> Counts {
 fn t_f3_gap_treatments_of_a_rotated_field_with_a_wall() {
     let field = unit_map(200, 200, |column, row| {
         let wall = (98..102).contains(&row) && (2..198).contains(&column);
-        if wall {
-            Occupancy::OCCUPIED
-        } else {
-            Occupancy::FREE
-        }
+        if wall { Occupancy::OCCUPIED } else { Occupancy::FREE }
     });
     let centre = Point2::new(100.0, 100.0);
     let target_from_source = Se2::about(centre, 30_f64.to_radians(), Vector2::new(0.3, 0.7));
@@ -226,27 +185,15 @@ fn t_f3_gap_treatments_of_a_rotated_field_with_a_wall() {
     let once = count(&blurred, &inverse);
     let again = forward(ForwardRounding::Centre, GapTreatment::BlurEverywhere);
     for _ in 1..6 {
-        let placed = PlacedMap {
-            map: &blurred,
-            reference_from_map: Se2::identity(),
-        };
+        let placed = PlacedMap { map: &blurred, reference_from_map: Se2::identity() };
         blurred = merge(&[placed], &again).unwrap().map;
     }
     let forward_only = count(&treated(GapTreatment::None), &inverse);
     let filled = count(&treated(GapTreatment::HoleFill), &inverse);
-    assert_eq!(
-        filled.known_outside, forward_only.known_outside,
-        "nothing is filled outside"
-    );
+    assert_eq!(filled.known_outside, forward_only.known_outside, "nothing is filled outside");
     let cases = [
         ("forward", forward_only, 0.133, 682.0, 0.849),
-        (
-            "printed",
-            count(&treated(GapTreatment::PrintedCondition), &inverse),
-            0.133,
-            682.0,
-            0.844,
-        ),
+        ("printed", count(&treated(GapTreatment::PrintedCondition), &inverse), 0.133, 682.0, 0.844),
         ("blur", once, 0.002, 564.0, 0.974),
         ("blur x 6", count(&blurred, &inverse), 0.003, 0.0, 0.968),
         ("hole fill", filled, 0.0014, 755.0, 0.979),
@@ -259,13 +206,7 @@ fn t_f3_gap_treatments_of_a_rotated_field_with_a_wall() {
         let unknown_fits = (counts.unknown_share - unknown_share).abs() <= 0.004
             || within_5_percent(counts.unknown_share, unknown_share);
         assert!(unknown_fits, "{name}: {counts:?}");
-        assert!(
-            within_5_percent(counts.occupied as f64, occupied),
-            "{name}: {counts:?}"
-        );
-        assert!(
-            within_5_percent(counts.free_share, free_share),
-            "{name}: {counts:?}"
-        );
+        assert!(within_5_percent(counts.occupied as f64, occupied), "{name}: {counts:?}");
+        assert!(within_5_percent(counts.free_share, free_share), "{name}: {counts:?}");
     }
 }

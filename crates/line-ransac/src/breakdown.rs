@@ -13,11 +13,8 @@ pub(crate) fn break_at_gaps(
     direction: DirectionRule,
 ) -> Vec<Line> {
     let from = line.limits[0];
-    let mut cells: Vec<_> = line
-        .cells
-        .iter()
-        .map(|&cell| (squared_distance(from, cell), cell))
-        .collect();
+    let mut cells: Vec<_> =
+        line.cells.iter().map(|&cell| (squared_distance(from, cell), cell)).collect();
     cells.sort_unstable();
     cells
         .chunk_by(|&(near, _), &(far, _)| {
@@ -46,22 +43,12 @@ mod tests {
     fn t_l2_breakdown_cuts_at_wide_gaps_and_its_misprint_at_narrow_ones() {
         let distances = [0.0, 2.0, 4.0, 6.0, 8.0, 10.0, 50.0, 52.0, 54.0];
         let pieces = |rule| -> Vec<&[f64]> {
-            distances
-                .chunk_by(|&near, &far| !is_break(near, far, 30.0, rule))
-                .collect()
+            distances.chunk_by(|&near, &far| !is_break(near, far, 30.0, rule)).collect()
         };
         let wider: [&[f64]; 2] = [&distances[..6], &distances[6..]];
         assert_eq!(pieces(BreakRule::Wider), wider);
-        let printed: [&[f64]; 8] = [
-            &[0.0],
-            &[2.0],
-            &[4.0],
-            &[6.0],
-            &[8.0],
-            &[10.0, 50.0],
-            &[52.0],
-            &[54.0],
-        ];
+        let printed: [&[f64]; 8] =
+            [&[0.0], &[2.0], &[4.0], &[6.0], &[8.0], &[10.0, 50.0], &[52.0], &[54.0]];
         assert_eq!(pieces(BreakRule::AsPrinted), printed);
     }
 

@@ -30,11 +30,7 @@ pub(crate) fn detect(
 ) -> Detection {
     let initial = cells.len() as f64;
     let mut pool = Pool::new(cells);
-    let mut detection = Detection {
-        lines: Vec::new(),
-        trials: 0,
-        fallback_lines: 0,
-    };
+    let mut detection = Detection { lines: Vec::new(), trials: 0, fallback_lines: 0 };
     while detection.lines.len() < params.max_lines
         && pool.cells().len() as f64 >= params.stop_share * initial
     {
@@ -84,21 +80,13 @@ fn search(
             best_votes = votes;
             best = Some(strip);
             if votes as f64 > params.accept_share * initial {
-                return Winner {
-                    strip: best,
-                    trials: trial,
-                    by_fallback: false,
-                };
+                return Winner { strip: best, trials: trial, by_fallback: false };
             }
         }
     }
     let enough =
         best_votes >= params.fallback_votes && best_votes as f64 >= params.fallback_share * initial;
-    Winner {
-        strip: best.filter(|_| enough),
-        trials: params.trials_per_line,
-        by_fallback: enough,
-    }
+    Winner { strip: best.filter(|_| enough), trials: params.trials_per_line, by_fallback: enough }
 }
 
 #[cfg(test)]
@@ -115,14 +103,10 @@ mod tests {
     #[test]
     fn t_l6_cells_without_a_line_end_by_the_fallback_and_within_the_bound() {
         let mut rng = ChaCha8Rng::seed_from_u64(3);
-        let cells: Vec<_> = (0..2000)
-            .map(|_| [rng.random_range(0..700), rng.random_range(0..600)])
-            .collect();
+        let cells: Vec<_> =
+            (0..2000).map(|_| [rng.random_range(0..700), rng.random_range(0..600)]).collect();
         for max_lines in [60, 5] {
-            let params = Params {
-                max_lines,
-                ..Params::paper()
-            };
+            let params = Params { max_lines, ..Params::paper() };
             let detection = detect_all(cells.clone(), &params);
             let most_votes = detection.lines.iter().map(|line| line.cells.len()).max();
             assert!(most_votes < Some(100), "a line of more than 5 %");
@@ -143,13 +127,7 @@ mod tests {
     fn a_line_has_the_cells_near_its_own_limits_and_leaves_the_others() {
         let mut cells: Vec<_> = (0..200).map(|column| [column, 0]).collect();
         cells.extend((0..200).map(|column| [column, 40]));
-        let detection = detect_all(
-            cells,
-            &Params {
-                stop_share: 0.1,
-                ..Params::paper()
-            },
-        );
+        let detection = detect_all(cells, &Params { stop_share: 0.1, ..Params::paper() });
         let mut rows: Vec<_> = detection.lines.iter().map(|line| line.limits).collect();
         rows.sort_unstable();
         assert_eq!(rows, [[[0, 0], [199, 0]], [[0, 40], [199, 40]]]);

@@ -72,10 +72,7 @@ pub fn extract_segments(map: &OccupancyGrid, params: &Params) -> Outcome<Extract
     let occupied_cells = occupied_cells(map.cells(), &params.classes);
     let occupied = occupied_cells.len();
     if occupied < 2 {
-        return Outcome::Refused(Refusal::TooLittleStructure {
-            have: occupied,
-            need: 2,
-        });
+        return Outcome::Refused(Refusal::TooLittleStructure { have: occupied, need: 2 });
     }
     let limits = InCells::new(params, map.frame().resolution());
     let mut rng = ChaCha8Rng::seed_from_u64(params.seed);
@@ -89,10 +86,7 @@ pub fn extract_segments(map: &OccupancyGrid, params: &Params) -> Outcome<Extract
         .flat_map(|line| break_at_gaps(line, limits.max_gap, params.break_rule, params.direction))
         .collect();
     let broken_ends = ends(&broken, map.frame());
-    let join_limits = JoinLimits {
-        angle: params.join_angle,
-        distance: limits.join_distance,
-    };
+    let join_limits = JoinLimits { angle: params.join_angle, distance: limits.join_distance };
     let joined = join(broken, join_limits, params.direction);
     let segments: Vec<Segment> = joined
         .iter()
@@ -101,9 +95,7 @@ pub fn extract_segments(map: &OccupancyGrid, params: &Params) -> Outcome<Extract
         .filter(|segment| segment.reliability >= params.min_reliability)
         .collect();
     if segments.is_empty() {
-        return Outcome::Refused(Refusal::NoLines {
-            candidates: joined.len(),
-        });
+        return Outcome::Refused(Refusal::NoLines { candidates: joined.len() });
     }
     Outcome::Found(Extraction {
         segments,
@@ -128,9 +120,7 @@ fn occupied_cells(grid: &Grid<Occupancy>, classes: &ClassThresholds) -> Vec<Cell
     let mut occupied = Vec::new();
     for (row, cells) in (0..).zip(grid.rows()) {
         for (from, run) in (0..).step_by(RUN).zip(cells.chunks(RUN)) {
-            let any = run
-                .iter()
-                .fold(false, |any, &cell| any | classes.is_occupied(cell));
+            let any = run.iter().fold(false, |any, &cell| any | classes.is_occupied(cell));
             if any {
                 let columns = (from..).zip(run);
                 let columns = columns.filter(|&(_, &cell)| classes.is_occupied(cell));
@@ -166,9 +156,7 @@ fn to_segment(line: &Line, map: &OccupancyGrid, band: u16) -> Segment {
 }
 
 fn ends(lines: &[Line], frame: &GridFrame) -> Vec<[Point2<f64>; 2]> {
-    let ends = lines
-        .iter()
-        .map(|line| line.limits.map(|cell| centre(cell, frame)));
+    let ends = lines.iter().map(|line| line.limits.map(|cell| centre(cell, frame)));
     ends.collect()
 }
 

@@ -39,20 +39,13 @@ fn first_alike(lines: &[Line], changed: usize, limits: JoinLimits) -> Option<(us
     let with_changed = (0..changed).map(|first| (first, changed));
     let after = (changed..lines.len())
         .flat_map(|first| (first + 1..lines.len()).map(move |second| (first, second)));
-    with_changed
-        .chain(after)
-        .find(|&(first, second)| alike(&lines[first], &lines[second], limits))
+    with_changed.chain(after).find(|&(first, second)| alike(&lines[first], &lines[second], limits))
 }
 
 fn alike(a: &Line, b: &Line, limits: JoinLimits) -> bool {
     undirected_difference(a.direction, b.direction) < limits.angle
-        && (a
-            .limits
-            .iter()
-            .any(|&end| distance(end, b.limits) < limits.distance)
-            || b.limits
-                .iter()
-                .any(|&end| distance(end, a.limits) < limits.distance))
+        && (a.limits.iter().any(|&end| distance(end, b.limits) < limits.distance)
+            || b.limits.iter().any(|&end| distance(end, a.limits) < limits.distance))
 }
 
 /// Distance from `point` to the nearest point of the segment from `a` to `b`.
@@ -72,10 +65,8 @@ mod tests {
     use crate::params::DirectionRule;
     use proptest::prelude::{prop, prop_assert, prop_assert_eq, proptest};
 
-    const LIMITS: JoinLimits = JoinLimits {
-        angle: 3.0 * std::f64::consts::PI / 180.0,
-        distance: 5.0,
-    };
+    const LIMITS: JoinLimits =
+        JoinLimits { angle: 3.0 * std::f64::consts::PI / 180.0, distance: 5.0 };
 
     fn between(a: [i32; 2], b: [i32; 2]) -> Line {
         Line::new(vec![a, b], DirectionRule::Endpoints).unwrap()

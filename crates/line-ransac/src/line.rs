@@ -26,11 +26,7 @@ impl Line {
             DirectionRule::TotalLeastSquares => principal_axis(&cells),
             DirectionRule::Endpoints => direction_between(limits),
         };
-        Some(Self {
-            cells,
-            limits,
-            direction: wrap_period(direction, PI),
-        })
+        Some(Self { cells, limits, direction: wrap_period(direction, PI) })
     }
 
     /// Distance between the limits, cells.

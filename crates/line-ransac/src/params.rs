@@ -143,12 +143,7 @@ mod tests {
 
     fn lengths(params: &Params, resolution: f64) -> [f64; 4] {
         let cells = InCells::new(params, resolution);
-        [
-            cells.line_distance,
-            cells.max_gap,
-            cells.min_length,
-            cells.join_distance,
-        ]
+        [cells.line_distance, cells.max_gap, cells.min_length, cells.join_distance]
     }
 
     #[test]

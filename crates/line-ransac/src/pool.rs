@@ -104,18 +104,9 @@ impl Pool {
 
     /// Lists the blocks whose box `strip` reaches and returns their number.
     fn reach(&mut self, strip: &LocalStrip) -> usize {
-        let Boxes {
-            centre_x,
-            centre_y,
-            half_width,
-            half_height,
-        } = &self.boxes;
+        let Boxes { centre_x, centre_y, half_width, half_height } = &self.boxes;
         let (across_width, across_height) = (strip.along_y.abs(), strip.along_x.abs());
-        let boxes = centre_x
-            .iter()
-            .zip(centre_y)
-            .zip(half_width)
-            .zip(half_height);
+        let boxes = centre_x.iter().zip(centre_y).zip(half_width).zip(half_height);
         for (missed_by, (((&x, &y), &half_width), &half_height)) in
             self.missed_by.iter_mut().zip(boxes)
         {
@@ -141,20 +132,11 @@ impl Pool {
     }
 
     fn rebuild_blocks(&mut self) {
-        let Self {
-            cells,
-            centre,
-            blocks,
-            boxes,
-            ..
-        } = self;
+        let Self { cells, centre, blocks, boxes, .. } = self;
         blocks.clear();
         boxes.clear();
         for members in cells.chunks(BLOCK) {
-            let mut block = Block {
-                x: [f64::NAN; BLOCK],
-                y: [f64::NAN; BLOCK],
-            };
+            let mut block = Block { x: [f64::NAN; BLOCK], y: [f64::NAN; BLOCK] };
             for (&[column, row], (x, y)) in members.iter().zip(block.x.iter_mut().zip(&mut block.y))
             {
                 *x = f64::from(column - centre[0]);
@@ -266,9 +248,6 @@ mod tests {
 
     #[test]
     fn an_empty_pool_has_no_votes() {
-        assert_eq!(
-            Pool::new(Vec::new()).votes(&Strip::new([0, 0], [5, 5], 2.0), 0),
-            0
-        );
+        assert_eq!(Pool::new(Vec::new()).votes(&Strip::new([0, 0], [5, 5], 2.0), 0), 0);
     }
 }

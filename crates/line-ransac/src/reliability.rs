@@ -36,10 +36,8 @@ fn rounded_share(step: i64, extent: i64, steps: i64) -> i64 {
 
 /// `None` outside the grid.
 fn probability(grid: &Grid<Occupancy>, column: i64, row: i64) -> Option<f64> {
-    let index = CellIndex {
-        column: usize::try_from(column).ok()?,
-        row: usize::try_from(row).ok()?,
-    };
+    let index =
+        CellIndex { column: usize::try_from(column).ok()?, row: usize::try_from(row).ok()? };
     let cell = grid.get(index)?;
     Some(cell.probability().unwrap_or(0.5))
 }
@@ -57,10 +55,8 @@ mod tests {
     #[test]
     fn a_door_lowers_it_by_its_share() {
         let wall = map("####....##");
-        let (occupied, free) = (
-            Occupancy::OCCUPIED.probability().unwrap(),
-            Occupancy::FREE.probability().unwrap(),
-        );
+        let (occupied, free) =
+            (Occupancy::OCCUPIED.probability().unwrap(), Occupancy::FREE.probability().unwrap());
         let mean = reliability(wall.cells(), [[0, 0], [9, 0]], 0);
         assert!((mean - (0.6 * occupied + 0.4 * free)).abs() < 1e-12);
         let reversed = reliability(wall.cells(), [[9, 0], [0, 0]], 0);

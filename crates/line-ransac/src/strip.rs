@@ -20,11 +20,7 @@ impl Strip {
     pub(crate) fn new(b: Cell, c: Cell, distance: f64) -> Self {
         let along = difference(c, b);
         let length = ((along[0] * along[0] + along[1] * along[1]) as f64).sqrt();
-        Self {
-            through: b,
-            along,
-            limit: (distance * length).ceil(),
-        }
+        Self { through: b, along, limit: (distance * length).ceil() }
     }
 
     pub(crate) fn contains(&self, a: Cell) -> bool {
@@ -48,10 +44,7 @@ impl Strip {
 
 /// `a - b`, wide enough for products.
 pub(crate) fn difference(a: Cell, b: Cell) -> [i64; 2] {
-    [
-        i64::from(a[0]) - i64::from(b[0]),
-        i64::from(a[1]) - i64::from(b[1]),
-    ]
+    [i64::from(a[0]) - i64::from(b[0]), i64::from(a[1]) - i64::from(b[1])]
 }
 
 #[cfg(test)]
@@ -60,10 +53,7 @@ mod tests {
 
     #[test]
     fn t_l1_distance_of_equation_3() {
-        for (a, b, c, distance) in [
-            ([3, 4], [0, 0], [10, 0], 4.0),
-            ([0, 5], [1, 1], [4, 5], 3.2),
-        ] {
+        for (a, b, c, distance) in [([3, 4], [0, 0], [10, 0], 4.0), ([0, 5], [1, 1], [4, 5], 3.2)] {
             assert!(!Strip::new(b, c, distance).contains(a), "strictly closer");
             assert!(Strip::new(b, c, distance + 1e-9).contains(a));
         }

@@ -51,11 +51,7 @@ fn t_l4_a_door_gap_stays_two_segments() {
     let stages = &walls.stages;
     let lines = [&stages.detected, &stages.broken, &stages.joined].map(Vec::len);
     assert_eq!(lines, [1, 2, 2]);
-    let mut columns: Vec<_> = walls
-        .segments
-        .iter()
-        .map(|s| (s.start.x, s.end.x))
-        .collect();
+    let mut columns: Vec<_> = walls.segments.iter().map(|s| (s.start.x, s.end.x)).collect();
     columns.sort_by(|a, b| a.0.total_cmp(&b.0));
     assert_eq!(columns, [(20.5, 119.5), (165.5, 264.5)]);
 }
@@ -116,15 +112,7 @@ proptest! {
 
 #[test]
 fn a_seed_repeats_and_another_seed_does_not() {
-    let with_seed = |seed| {
-        found(
-            &room(0.3),
-            &Params {
-                seed,
-                ..Params::default()
-            },
-        )
-    };
+    let with_seed = |seed| found(&room(0.3), &Params { seed, ..Params::default() });
     assert_eq!(with_seed(5), with_seed(5));
     assert_ne!(with_seed(5), with_seed(6));
 }
@@ -143,10 +131,7 @@ fn too_few_cells_are_a_refusal() {
 fn a_line_of_scattered_cells_is_no_wall() {
     let dotted = map(200, |x, y| y.floor() == 100.0 && x.floor() % 5.0 == 0.0);
     let outcome = extract_segments(&dotted, &Params::paper());
-    assert_eq!(
-        outcome,
-        Outcome::Refused(Refusal::NoLines { candidates: 1 })
-    );
+    assert_eq!(outcome, Outcome::Refused(Refusal::NoLines { candidates: 1 }));
 }
 
 #[test]
@@ -156,30 +141,11 @@ fn absurd_parameters_find_nothing_or_something_finite() {
     for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -1.0, 0.0, 1e300] {
         let length = Length::metres(value);
         for params in [
-            Params {
-                line_distance: length,
-                ..plain.clone()
-            },
-            Params {
-                max_gap: length,
-                join_distance: length,
-                ..plain.clone()
-            },
-            Params {
-                min_length: length,
-                min_reliability: value,
-                ..plain.clone()
-            },
-            Params {
-                accept_share: value,
-                join_angle: value,
-                ..plain.clone()
-            },
-            Params {
-                stop_share: value,
-                fallback_share: value,
-                ..plain.clone()
-            },
+            Params { line_distance: length, ..plain.clone() },
+            Params { max_gap: length, join_distance: length, ..plain.clone() },
+            Params { min_length: length, min_reliability: value, ..plain.clone() },
+            Params { accept_share: value, join_angle: value, ..plain.clone() },
+            Params { stop_share: value, fallback_share: value, ..plain.clone() },
         ] {
             if let Outcome::Found(walls) = extract_segments(&map, &params) {
                 assert!(
@@ -192,18 +158,9 @@ fn absurd_parameters_find_nothing_or_something_finite() {
         }
     }
     for params in [
-        Params {
-            max_points: 0,
-            ..plain.clone()
-        },
-        Params {
-            trials_per_line: 0,
-            ..plain.clone()
-        },
-        Params {
-            max_lines: 0,
-            ..plain
-        },
+        Params { max_points: 0, ..plain.clone() },
+        Params { trials_per_line: 0, ..plain.clone() },
+        Params { max_lines: 0, ..plain },
     ] {
         assert_eq!(
             extract_segments(&map, &params),

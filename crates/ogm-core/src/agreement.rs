@@ -78,12 +78,7 @@ mod tests {
     fn unknown_cells_neither_agree_nor_conflict() {
         let (a, b) = (map(1.0, "##.?"), map(1.0, "#..."));
         let agreement = Agreement::between(&a, &b, &ClassThresholds::default()).unwrap();
-        let expected = Agreement {
-            both_occupied: 1,
-            both_free: 1,
-            conflicts: 1,
-            known_in_both: 3,
-        };
+        let expected = Agreement { both_occupied: 1, both_free: 1, conflicts: 1, known_in_both: 3 };
         assert_eq!(agreement, expected);
         assert_eq!(agreement.share(), Some(2.0 / 3.0));
 

@@ -55,10 +55,7 @@ pub fn mean_k_fold(
     // A NaN strength (no weight) fails this comparison too.
     if strength >= 1e-6 {
         let direction = wrap_period(sin_sum.atan2(cos_sum) / k, TAU / k);
-        Some(KFoldMean {
-            direction,
-            strength,
-        })
+        Some(KFoldMean { direction, strength })
     } else {
         None
     }
@@ -71,23 +68,13 @@ mod tests {
 
     #[test]
     fn wrap_matches_worked_examples() {
-        for (value, period, expected) in [
-            (190.0, 360.0, -170.0),
-            (91.0, 90.0, 1.0),
-            (45.0, 90.0, -45.0),
-            (180.0, 360.0, -180.0),
-        ] {
-            assert_eq!(
-                wrap_period(value, period),
-                expected,
-                "wrap({value}, {period})"
-            );
+        for (value, period, expected) in
+            [(190.0, 360.0, -170.0), (91.0, 90.0, 1.0), (45.0, 90.0, -45.0), (180.0, 360.0, -180.0)]
+        {
+            assert_eq!(wrap_period(value, period), expected, "wrap({value}, {period})");
         }
         let tiny = -180.0 - 1e-20;
-        assert!(
-            wrap_period(tiny, 360.0) < 180.0,
-            "result must stay below half a period"
-        );
+        assert!(wrap_period(tiny, 360.0) < 180.0, "result must stay below half a period");
     }
 
     #[test]
@@ -104,10 +91,7 @@ mod tests {
     fn there_is_no_mean_of_nothing_or_of_what_cancels() {
         assert_eq!(mean_k_fold([], 4), None);
         assert_eq!(mean_k_fold([(1.0, 0.0)], 4), None);
-        assert_eq!(
-            mean_k_fold([(0.0, 1.0), (std::f64::consts::FRAC_PI_2, 1.0)], 2),
-            None
-        );
+        assert_eq!(mean_k_fold([(0.0, 1.0), (std::f64::consts::FRAC_PI_2, 1.0)], 2), None);
     }
 
     proptest! {

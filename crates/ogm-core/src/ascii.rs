@@ -9,11 +9,8 @@ impl OccupancyGrid {
     /// # Errors
     /// Another character, lines of unequal length, or no cell at all.
     pub fn from_ascii(frame: GridFrame, picture: &str) -> Result<Self, GridError> {
-        let lines: Vec<&str> = picture
-            .lines()
-            .map(str::trim)
-            .filter(|line| !line.is_empty())
-            .collect();
+        let lines: Vec<&str> =
+            picture.lines().map(str::trim).filter(|line| !line.is_empty()).collect();
         let width = lines.first().map_or(0, |line| line.chars().count());
         let mut cells = Vec::with_capacity(width * lines.len());
         for (index, line) in lines.iter().enumerate().rev() {
@@ -23,10 +20,7 @@ impl OccupancyGrid {
                     '.' => Occupancy::FREE,
                     '?' => Occupancy::UNKNOWN,
                     _ => {
-                        return Err(GridError::UnknownCharacter {
-                            line: index + 1,
-                            character,
-                        });
+                        return Err(GridError::UnknownCharacter { line: index + 1, character });
                     }
                 });
             }
@@ -72,17 +66,8 @@ mod tests {
     #[test]
     fn pictures_that_are_no_grid_are_errors() {
         let bad = |picture| OccupancyGrid::from_ascii(frame(), picture).unwrap_err();
-        assert_eq!(
-            bad("..\n.x"),
-            GridError::UnknownCharacter {
-                line: 2,
-                character: 'x'
-            }
-        );
-        assert!(matches!(
-            bad("..\n."),
-            GridError::WrongCellCount { cells: 3, .. }
-        ));
+        assert_eq!(bad("..\n.x"), GridError::UnknownCharacter { line: 2, character: 'x' });
+        assert!(matches!(bad("..\n."), GridError::WrongCellCount { cells: 3, .. }));
         assert!(matches!(bad("\n"), GridError::ZeroArea { .. }));
     }
 }

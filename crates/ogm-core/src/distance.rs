@@ -62,13 +62,8 @@ mod tests {
         for (column, row) in [(1, 1), (4, 3)] {
             *mask.get_mut(CellIndex { column, row }).unwrap() = true;
         }
-        let expected = [
-            [2, 1, 2, 3, 3],
-            [1, 0, 1, 2, 2],
-            [2, 1, 2, 2, 1],
-            [3, 2, 2, 1, 0],
-            [4, 3, 3, 2, 1],
-        ];
+        let expected =
+            [[2, 1, 2, 3, 3], [1, 0, 1, 2, 2], [2, 1, 2, 2, 1], [3, 2, 2, 1, 0], [4, 3, 3, 2, 1]];
         assert_eq!(l1_distance(&mask).unwrap().cells(), expected.as_flattened());
     }
 

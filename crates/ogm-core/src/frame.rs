@@ -33,10 +33,7 @@ impl GridFrame {
     /// A resolution that is not finite and positive, or a non-finite origin.
     pub fn new(resolution: f64, map_from_grid: Se2) -> Result<Self, GridError> {
         if resolution.is_finite() && resolution > 0.0 && map_from_grid.is_finite() {
-            Ok(Self {
-                resolution,
-                map_from_grid,
-            })
+            Ok(Self { resolution, map_from_grid })
         } else {
             Err(GridError::InvalidFrame {
                 resolution,
@@ -62,10 +59,7 @@ impl GridFrame {
     /// The centre of a cell in the map frame, metres.
     #[must_use]
     pub fn cell_centre(&self, index: CellIndex) -> Point2<f64> {
-        self.point_from_cells(Point2::new(
-            index.column as f64 + 0.5,
-            index.row as f64 + 0.5,
-        ))
+        self.point_from_cells(Point2::new(index.column as f64 + 0.5, index.row as f64 + 0.5))
     }
 
     /// The map point at the continuous cell coordinates `cells`.
@@ -95,10 +89,7 @@ impl GridFrame {
     pub fn shifted(&self, column: i64, row: i64) -> Self {
         let corner = Point2::new(column as f64, row as f64) * self.resolution;
         let shift = Se2::new(corner.x, corner.y, 0.0);
-        Self {
-            resolution: self.resolution,
-            map_from_grid: self.map_from_grid * shift,
-        }
+        Self { resolution: self.resolution, map_from_grid: self.map_from_grid * shift }
     }
 
     /// Whether the resolutions agree to a relative 1e-6, the precision of a ROS message.
@@ -145,10 +136,7 @@ mod tests {
     fn frames_that_cannot_be_meant_are_errors() {
         for resolution in [0.0, -0.05, f64::NAN, f64::INFINITY] {
             let frame = GridFrame::new(resolution, Se2::identity());
-            assert!(
-                matches!(frame, Err(GridError::InvalidFrame { .. })),
-                "{resolution}"
-            );
+            assert!(matches!(frame, Err(GridError::InvalidFrame { .. })), "{resolution}");
         }
         let frame = GridFrame::new(0.05, Se2::new(f64::NAN, 0.0, 0.0));
         assert!(matches!(frame, Err(GridError::InvalidFrame { .. })));

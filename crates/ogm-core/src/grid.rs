@@ -29,11 +29,7 @@ impl<T> Grid<T> {
     pub fn new(width: usize, height: usize, cells: Vec<T>) -> Result<Self, GridError> {
         check_size(width, height)?;
         if cells.len() != width * height {
-            return Err(GridError::WrongCellCount {
-                width,
-                height,
-                cells: cells.len(),
-            });
+            return Err(GridError::WrongCellCount { width, height, cells: cells.len() });
         }
         Ok(Self { width, cells })
     }
@@ -47,10 +43,7 @@ impl<T> Grid<T> {
         T: Clone,
     {
         check_size(width, height)?;
-        Ok(Self {
-            width,
-            cells: vec![value; width * height],
-        })
+        Ok(Self { width, cells: vec![value; width * height] })
     }
 
     /// Columns, at least 1.
@@ -114,28 +107,19 @@ impl<T> Grid<T> {
     /// The column and row of the cell at `position` in [`cells`](Self::cells).
     #[must_use]
     pub fn index_of(&self, position: usize) -> CellIndex {
-        CellIndex {
-            column: position % self.width,
-            row: position / self.width,
-        }
+        CellIndex { column: position % self.width, row: position / self.width }
     }
 
     /// A grid of the same size with `f` of every cell.
     #[must_use]
     pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Grid<U> {
-        Grid {
-            width: self.width,
-            cells: self.cells.iter().map(f).collect(),
-        }
+        Grid { width: self.width, cells: self.cells.iter().map(f).collect() }
     }
 
     /// Every cell with its index, row-major from the lowest row.
     pub fn indexed(&self) -> impl Iterator<Item = (CellIndex, &T)> {
         self.rows().enumerate().flat_map(|(row, cells)| {
-            cells
-                .iter()
-                .enumerate()
-                .map(move |(column, cell)| (CellIndex { column, row }, cell))
+            cells.iter().enumerate().map(move |(column, cell)| (CellIndex { column, row }, cell))
         })
     }
 }
@@ -146,11 +130,7 @@ fn check_size(width: usize, height: usize) -> Result<(), GridError> {
     }
     match width.checked_mul(height) {
         Some(count) if count <= MAX_CELLS => Ok(()),
-        _ => Err(GridError::TooLarge {
-            width,
-            height,
-            limit: MAX_CELLS,
-        }),
+        _ => Err(GridError::TooLarge { width, height, limit: MAX_CELLS }),
     }
 }
 
@@ -162,22 +142,10 @@ mod tests {
     #[test]
     fn absurd_sizes_are_errors_before_they_are_allocations() {
         let billion = 1_000_000_000;
-        assert!(matches!(
-            Grid::filled(billion, billion, 0_u8),
-            Err(GridError::TooLarge { .. })
-        ));
-        assert!(matches!(
-            Grid::filled(usize::MAX, 2, 0_u8),
-            Err(GridError::TooLarge { .. })
-        ));
-        assert!(matches!(
-            Grid::filled(0, 7, 0_u8),
-            Err(GridError::ZeroArea { .. })
-        ));
-        assert!(matches!(
-            Grid::new(2, 2, vec![1_u8]),
-            Err(GridError::WrongCellCount { .. })
-        ));
+        assert!(matches!(Grid::filled(billion, billion, 0_u8), Err(GridError::TooLarge { .. })));
+        assert!(matches!(Grid::filled(usize::MAX, 2, 0_u8), Err(GridError::TooLarge { .. })));
+        assert!(matches!(Grid::filled(0, 7, 0_u8), Err(GridError::ZeroArea { .. })));
+        assert!(matches!(Grid::new(2, 2, vec![1_u8]), Err(GridError::WrongCellCount { .. })));
     }
 
     #[test]

@@ -16,28 +16,19 @@ impl Length {
     /// A length of `metres`, whatever the resolution.
     #[must_use]
     pub const fn metres(metres: f64) -> Self {
-        Self {
-            metres,
-            min_cells: 0.0,
-        }
+        Self { metres, min_cells: 0.0 }
     }
 
     /// A length of `cells` of whatever grid it is used on.
     #[must_use]
     pub const fn cells(cells: f64) -> Self {
-        Self {
-            metres: 0.0,
-            min_cells: cells,
-        }
+        Self { metres: 0.0, min_cells: cells }
     }
 
     /// The same length, but at least `cells` long.
     #[must_use]
     pub const fn at_least_cells(self, cells: f64) -> Self {
-        Self {
-            metres: self.metres,
-            min_cells: cells,
-        }
+        Self { metres: self.metres, min_cells: cells }
     }
 
     /// Metres at `resolution` metres a cell.

@@ -36,10 +36,9 @@ impl NearestCells {
     /// The set cell nearest to `index`, or `None` outside the grid.
     #[must_use]
     pub fn nearest(&self, index: CellIndex) -> Option<CellIndex> {
-        self.nearest.get(index).map(|&[column, row]| CellIndex {
-            column: column as usize,
-            row: row as usize,
-        })
+        self.nearest
+            .get(index)
+            .map(|&[column, row]| CellIndex { column: column as usize, row: row as usize })
     }
 
     /// Squared distance in cells to the nearest set cell, for every cell.
@@ -47,10 +46,7 @@ impl NearestCells {
     pub fn distance_sq(&self) -> Grid<u32> {
         let mut distance = self.nearest.map(|_| 0);
         let width = self.nearest.width();
-        let rows = distance
-            .cells_mut()
-            .chunks_exact_mut(width)
-            .zip(self.nearest.rows());
+        let rows = distance.cells_mut().chunks_exact_mut(width).zip(self.nearest.rows());
         for (row, (output, nearest)) in (0_u32..).zip(rows) {
             for (column, (cell, &[near_column, near_row])) in
                 (0_u32..).zip(output.iter_mut().zip(nearest))
@@ -71,10 +67,7 @@ pub fn l2_distance_sq(mask: &Grid<bool>) -> Option<Grid<u32>> {
 }
 
 /// For every cell the row of the nearest set cell in its own column, the lower one on a tie.
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "a grid has fewer than 2³² rows"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "a grid has fewer than 2³² rows")]
 fn nearest_in_column(mask: &Grid<bool>) -> Grid<u32> {
     let (width, height) = (mask.width(), mask.height());
     let mut nearest = mask.map(|_| NONE);
@@ -132,9 +125,7 @@ impl Parabola {
 
 impl Envelope {
     fn with_capacity(width: usize) -> Self {
-        Self {
-            parabolas: Vec::with_capacity(width),
-        }
+        Self { parabolas: Vec::with_capacity(width) }
     }
 
     fn rebuild(&mut self, row_of_nearest: &[u32], row: usize) {
@@ -144,16 +135,8 @@ impl Envelope {
                 continue;
             }
             let rise = i64::from(nearest_row) - row as i64;
-            let mut next = Parabola {
-                column,
-                nearest_row,
-                height: rise * rise,
-                from: 0,
-            };
-            while self
-                .parabolas
-                .last()
-                .is_some_and(|last| last.at(last.from) > next.at(last.from))
+            let mut next = Parabola { column, nearest_row, height: rise * rise, from: 0 };
+            while self.parabolas.last().is_some_and(|last| last.at(last.from) > next.at(last.from))
             {
                 self.parabolas.pop();
             }
@@ -203,10 +186,7 @@ mod tests {
         let seed = CellIndex { column: 5, row: 1 };
         *mask.get_mut(seed).unwrap() = true;
         let nearest = NearestCells::new(&mask).unwrap();
-        assert!(
-            mask.indexed()
-                .all(|(index, _)| nearest.nearest(index) == Some(seed))
-        );
+        assert!(mask.indexed().all(|(index, _)| nearest.nearest(index) == Some(seed)));
     }
 
     proptest! {

@@ -28,11 +28,7 @@ impl Occupancy {
         reason = "clamped to 0..=254 before the cast"
     )]
     pub fn from_probability(p: f64) -> Self {
-        if p.is_nan() {
-            Self::UNKNOWN
-        } else {
-            Self((p.clamp(0.0, 1.0) * 254.0).round() as u8)
-        }
+        if p.is_nan() { Self::UNKNOWN } else { Self((p.clamp(0.0, 1.0) * 254.0).round() as u8) }
     }
 
     /// The nearest storable probability of a log-odds value, clamped to ±[`LOG_ODDS_LIMIT`].
@@ -122,12 +118,7 @@ impl ClassThresholds {
         if 0.0 < free && free < 0.5 && 0.5 < occupied && occupied < 1.0 {
             let free_up_to = (free * 254.0).floor() as u8;
             let occupied_from = (occupied * 254.0).ceil() as u8;
-            Ok(Self {
-                free,
-                occupied,
-                free_up_to,
-                occupied_from,
-            })
+            Ok(Self { free, occupied, free_up_to, occupied_from })
         } else {
             Err(GridError::InvalidThresholds { free, occupied })
         }
@@ -171,12 +162,7 @@ impl ClassThresholds {
 
 impl Default for ClassThresholds {
     fn default() -> Self {
-        Self {
-            free: 0.35,
-            occupied: 0.65,
-            free_up_to: 88,
-            occupied_from: 166,
-        }
+        Self { free: 0.35, occupied: 0.65, free_up_to: 88, occupied_from: 166 }
     }
 }
 
@@ -228,10 +214,8 @@ impl OccupancyGrid {
     #[must_use]
     pub fn cell_at(&self, point: Point2<f64>) -> Option<CellIndex> {
         let [column, row] = self.frame.lattice_cell(point);
-        let index = CellIndex {
-            column: usize::try_from(column).ok()?,
-            row: usize::try_from(row).ok()?,
-        };
+        let index =
+            CellIndex { column: usize::try_from(column).ok()?, row: usize::try_from(row).ok()? };
         self.cells.get(index).map(|_| index)
     }
 
@@ -268,15 +252,9 @@ mod tests {
 
     #[test]
     fn default_thresholds_are_the_validated_ones() {
-        assert_eq!(
-            ClassThresholds::default(),
-            ClassThresholds::new(0.35, 0.65).unwrap()
-        );
+        assert_eq!(ClassThresholds::default(), ClassThresholds::new(0.35, 0.65).unwrap());
         for (free, occupied) in [(0.0, 0.65), (0.35, 1.0), (0.5, 0.65), (f64::NAN, 0.65)] {
-            assert!(
-                ClassThresholds::new(free, occupied).is_err(),
-                "{free} {occupied}"
-            );
+            assert!(ClassThresholds::new(free, occupied).is_err(), "{free} {occupied}");
         }
     }
 
@@ -288,11 +266,7 @@ mod tests {
         assert_eq!(thresholds.classify(Occupancy::UNKNOWN), CellClass::Unknown);
         assert_eq!(Occupancy::UNKNOWN.probability(), None);
         assert_eq!(Occupancy::from_probability(f64::NAN), Occupancy::UNKNOWN);
-        assert_eq!(
-            Occupancy::from_probability(1.0).byte(),
-            254,
-            "certainly occupied is known"
-        );
+        assert_eq!(Occupancy::from_probability(1.0).byte(), 254, "certainly occupied is known");
     }
 
     #[test]

@@ -95,10 +95,9 @@ impl CellWalk {
     ) -> (usize, usize) {
         let mut from = 0.0_f64;
         let mut to = width as f64;
-        for (start, step, extent) in [
-            (start.x, self.step.x, columns as f64),
-            (start.y, self.step.y, rows as f64),
-        ] {
+        for (start, step, extent) in
+            [(start.x, self.step.x, columns as f64), (start.y, self.step.y, rows as f64)]
+        {
             if step.abs() < 1e-12 {
                 if start < -1.0 || start > extent + 1.0 {
                     return (0, 0);
@@ -109,11 +108,7 @@ impl CellWalk {
                 to = to.min(a.max(b).ceil() + 1.0);
             }
         }
-        if from < to {
-            (to_column(from), to_column(to))
-        } else {
-            (0, 0)
-        }
+        if from < to { (to_column(from), to_column(to)) } else { (0, 0) }
     }
 }
 
@@ -134,10 +129,7 @@ struct FixedPoint {
 
 impl FixedPoint {
     fn at(start: f64, step: f64, column: usize) -> Self {
-        Self {
-            value: to_fixed(start + step * column as f64),
-            step: to_fixed(step),
-        }
+        Self { value: to_fixed(start + step * column as f64), step: to_fixed(step) }
     }
 
     fn floor(&self) -> i64 {
@@ -149,10 +141,7 @@ impl FixedPoint {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "saturates; far outside any source grid"
-)]
+#[expect(clippy::cast_possible_truncation, reason = "saturates; far outside any source grid")]
 fn to_fixed(x: f64) -> i64 {
     (x * 4_294_967_296.0).round() as i64
 }
@@ -209,14 +198,7 @@ mod tests {
     fn a_transform_that_is_not_finite_is_an_error() {
         let frame = GridFrame::new(1.0, Se2::identity()).unwrap();
         let target_from_source = Se2::new(f64::NAN, 0.0, 0.0);
-        let warped = warp_nearest(
-            &numbered(2, 2),
-            &frame,
-            &frame,
-            (2, 2),
-            &target_from_source,
-            -1,
-        );
+        let warped = warp_nearest(&numbered(2, 2), &frame, &frame, (2, 2), &target_from_source, -1);
         assert!(matches!(warped, Err(GridError::NonFiniteTransform { .. })));
     }
 }

@@ -75,14 +75,10 @@ impl MapHeader {
         }
         let survey = Survey::of(raster);
         if raster.channels.has_alpha() {
-            warnings.push(MapWarning::AlphaLeftOut {
-                translucent: survey.translucent,
-            });
+            warnings.push(MapWarning::AlphaLeftOut { translucent: survey.translucent });
         }
         if survey.levels > TRINARY_LEVELS {
-            warnings.push(MapWarning::GreyLevels {
-                levels: survey.levels,
-            });
+            warnings.push(MapWarning::GreyLevels { levels: survey.levels });
         }
         let free_thresh = self.free_thresh;
         let unknown_level = raster.channels.colours() * u32::from(UNKNOWN_GREY);
@@ -138,17 +134,11 @@ impl MapHeader {
 
 fn raw(raster: &Raster, pixel: Pixel) -> Occupancy {
     let byte = (255.0 * f64::from(pixel.colour) / f64::from(raster.white())).round();
-    if byte <= 100.0 {
-        Occupancy::from_probability(byte / 100.0)
-    } else {
-        Occupancy::UNKNOWN
-    }
+    if byte <= 100.0 { Occupancy::from_probability(byte / 100.0) } else { Occupancy::UNKNOWN }
 }
 
 fn is_opaque(raster: &Raster, pixel: Pixel) -> bool {
-    pixel
-        .alpha
-        .is_none_or(|alpha| alpha == u32::from(raster.max))
+    pixel.alpha.is_none_or(|alpha| alpha == u32::from(raster.max))
 }
 
 /// Which levels the opaque pixels of an image have.

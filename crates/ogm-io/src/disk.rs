@@ -10,10 +10,7 @@ pub(crate) fn read_at_most(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let file = File::open(path)?;
     let metadata = file.metadata()?;
     if !metadata.is_file() {
-        return Err(io::Error::new(
-            ErrorKind::InvalidInput,
-            "not a regular file",
-        ));
+        return Err(io::Error::new(ErrorKind::InvalidInput, "not a regular file"));
     }
     let mut bytes = Vec::new();
     file.take(limit + 1).read_to_end(&mut bytes)?;
@@ -124,10 +121,7 @@ mod tests {
         fs::write(&image, "old pixels").unwrap();
         fs::write(&yaml, "old").unwrap();
         let new_image = Temporary::write(&image, b"pixels").unwrap();
-        let new_yaml = Temporary {
-            path: folder.path().join("gone"),
-            target: yaml.clone(),
-        };
+        let new_yaml = Temporary { path: folder.path().join("gone"), target: yaml.clone() };
         assert!(put_pair_in_place(&new_image, &new_yaml).is_err());
         assert!(!yaml.exists());
         assert_eq!(fs::read_to_string(&image).unwrap(), "pixels");

@@ -49,18 +49,14 @@ impl MapHeader {
             return Err(value_error("image", image, "a file name"));
         }
         let resolution = resolution(required(keys.resolution, "resolution", "0.05")?)?;
-        let origin = keys.origin.ok_or(YamlError::MissingKey {
-            key: "origin",
-            example: "[0.0, 0.0, 0.0]",
-        })?;
+        let origin = keys
+            .origin
+            .ok_or(YamlError::MissingKey { key: "origin", example: "[0.0, 0.0, 0.0]" })?;
         let (frame, warnings) = frame(resolution, &origin)?;
         let occupied_thresh = threshold(keys.occupied_thresh, "occupied_thresh", "0.65")?;
         let free_thresh = threshold(keys.free_thresh, "free_thresh", "0.196")?;
         if free_thresh >= occupied_thresh {
-            return Err(YamlError::Thresholds {
-                free: free_thresh,
-                occupied: occupied_thresh,
-            });
+            return Err(YamlError::Thresholds { free: free_thresh, occupied: occupied_thresh });
         }
         let header = Self {
             image: PathBuf::from(image),
@@ -89,9 +85,8 @@ struct Keys {
 
 fn scan(yaml: &[u8]) -> Result<Keys, YamlError> {
     let text = str::from_utf8(yaml).map_err(|_not_utf8| YamlError::NotText)?;
-    serde_saphyr::from_str(text).map_err(|error| YamlError::Syntax {
-        message: error.without_snippet().to_string(),
-    })
+    serde_saphyr::from_str(text)
+        .map_err(|error| YamlError::Syntax { message: error.without_snippet().to_string() })
 }
 
 fn required(
@@ -103,11 +98,7 @@ fn required(
 }
 
 fn value_error(key: &'static str, value: String, expected: &'static str) -> YamlError {
-    YamlError::Value {
-        key,
-        value,
-        expected,
-    }
+    YamlError::Value { key, value, expected }
 }
 
 fn resolution(text: String) -> Result<f64, YamlError> {
@@ -141,22 +132,14 @@ fn mode(text: Option<String>) -> Result<MapMode, YamlError> {
         None | Some("trinary") => Ok(MapMode::Trinary),
         Some("scale") => Ok(MapMode::Scale),
         Some("raw") => Ok(MapMode::Raw),
-        Some(other) => Err(value_error(
-            "mode",
-            other.to_owned(),
-            "trinary, scale or raw",
-        )),
+        Some(other) => Err(value_error("mode", other.to_owned(), "trinary, scale or raw")),
     }
 }
 
 fn frame(resolution: f64, origin: &[String]) -> Result<(GridFrame, Vec<MapWarning>), YamlError> {
     let bad = || {
         let value = format!("[{}]", origin.join(", "));
-        value_error(
-            "origin",
-            value,
-            "[x, y, yaw], finite, in metres and radians",
-        )
+        value_error("origin", value, "[x, y, yaw], finite, in metres and radians")
     };
     let [x_text, y_text, yaw_text] = origin else {
         return Err(bad());
@@ -183,11 +166,8 @@ fn frame(resolution: f64, origin: &[String]) -> Result<(GridFrame, Vec<MapWarnin
 /// A warning if a coordinate looks like the output of a saver that keeps three digits.
 fn rounded(axis: char, value: f64, text: &str) -> Option<MapWarning> {
     let mantissa = text.split(['e', 'E']).next().unwrap_or(text);
-    let digits = mantissa
-        .chars()
-        .filter(char::is_ascii_digit)
-        .skip_while(|&digit| digit == '0')
-        .count();
+    let digits =
+        mantissa.chars().filter(char::is_ascii_digit).skip_while(|&digit| digit == '0').count();
     (value.abs() >= 100.0 && digits <= 3).then(|| MapWarning::RoundedOrigin {
         axis,
         text: text.to_owned(),

@@ -22,10 +22,7 @@
 //!
 //! [`read_map`] and [`write_map`] do the same with files; a map is written atomically.
 
-#![expect(
-    clippy::disallowed_methods,
-    reason = "files are what this crate is for"
-)]
+#![expect(clippy::disallowed_methods, reason = "files are what this crate is for")]
 
 mod classify;
 mod disk;

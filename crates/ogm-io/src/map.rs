@@ -44,10 +44,8 @@ pub fn read_map_with(yaml: &Path, options: &ReadOptions) -> Result<LoadedMap, Io
         action: "read",
         cause,
     })?;
-    let (header, mut warnings) = MapHeader::parse(&text).map_err(|cause| IoError::Yaml {
-        path: yaml.to_owned(),
-        cause,
-    })?;
+    let (header, mut warnings) =
+        MapHeader::parse(&text).map_err(|cause| IoError::Yaml { path: yaml.to_owned(), cause })?;
     let folder = yaml.parent().unwrap_or(Path::new(""));
     let image = folder.join(&header.image);
     let bytes = read_at_most(&image, MAX_IMAGE_BYTES).map_err(|cause| IoError::MissingImage {
@@ -57,15 +55,7 @@ pub fn read_map_with(yaml: &Path, options: &ReadOptions) -> Result<LoadedMap, Io
     })?;
     let (map, noticed) = header
         .read_image(&bytes, options)
-        .map_err(|cause| IoError::Image {
-            path: image.clone(),
-            cause,
-        })?;
+        .map_err(|cause| IoError::Image { path: image.clone(), cause })?;
     warnings.extend(noticed);
-    Ok(LoadedMap {
-        map,
-        header,
-        image,
-        warnings,
-    })
+    Ok(LoadedMap { map, header, image, warnings })
 }

@@ -9,9 +9,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, MapImageError> {
         [b'P', b'2', next, ..] if ends_token(*next) => true,
         [b'P', b'5', next, ..] if ends_token(*next) => false,
         _ => {
-            return Err(MapImageError::Format {
-                start: excerpt(bytes),
-            });
+            return Err(MapImageError::Format { start: excerpt(bytes) });
         }
     };
     let mut cursor = Cursor { rest: &bytes[2..] };
@@ -20,24 +18,13 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, MapImageError> {
     let cells = cell_count(width, height)?;
     let max = cursor.header_field("maximum", usize::from(u16::MAX))?;
     let max = u16::try_from(max).unwrap_or(u16::MAX);
-    let wrong_length = |found| MapImageError::WrongLength {
-        width,
-        height,
-        need: cells,
-        found,
-    };
+    let wrong_length = |found| MapImageError::WrongLength { width, height, need: cells, found };
     let samples = if plain {
         cursor.plain_samples(cells, max)?.map_err(wrong_length)?
     } else {
         cursor.raw_samples(cells, max)?.map_err(wrong_length)?
     };
-    Ok(Raster {
-        width,
-        height,
-        max,
-        channels: Channels::Grey,
-        samples,
-    })
+    Ok(Raster { width, height, max, channels: Channels::Grey, samples })
 }
 
 /// An 8-bit raw PGM of grey levels, top row first.
@@ -76,11 +63,7 @@ impl<'a> Cursor<'a> {
         let token = self.token();
         number(token)
             .filter(|value| (1..=max).contains(value))
-            .ok_or_else(|| MapImageError::PgmHeader {
-                field,
-                max,
-                found: excerpt(token),
-            })
+            .ok_or_else(|| MapImageError::PgmHeader { field, max, found: excerpt(token) })
     }
 
     /// Decimal samples; the inner error is how many there are if not `cells`.
@@ -105,11 +88,7 @@ impl<'a> Cursor<'a> {
                 break;
             }
         }
-        if samples.len() == cells {
-            Ok(Ok(Samples::Wide(samples)))
-        } else {
-            Ok(Err(samples.len()))
-        }
+        if samples.len() == cells { Ok(Ok(Samples::Wide(samples))) } else { Ok(Err(samples.len())) }
     }
 
     /// Binary samples; the inner error is how many there are if not `cells`.
@@ -149,11 +128,7 @@ impl<'a> Cursor<'a> {
 fn first_above(samples: &Samples, max: u16) -> Option<(usize, u16)> {
     let above = |&(_, value): &(usize, u16)| value > max;
     match samples {
-        Samples::Narrow(samples) => samples
-            .iter()
-            .map(|&s| u16::from(s))
-            .enumerate()
-            .find(above),
+        Samples::Narrow(samples) => samples.iter().map(|&s| u16::from(s)).enumerate().find(above),
         Samples::Wide(samples) => samples.iter().copied().enumerate().find(above),
     }
 }
@@ -171,10 +146,7 @@ fn number(token: &[u8]) -> Option<usize> {
 }
 
 fn length_until(bytes: &[u8], end: impl Fn(u8) -> bool) -> usize {
-    bytes
-        .iter()
-        .position(|&byte| end(byte))
-        .unwrap_or(bytes.len())
+    bytes.iter().position(|&byte| end(byte)).unwrap_or(bytes.len())
 }
 
 fn ends_token(byte: u8) -> bool {

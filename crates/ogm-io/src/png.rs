@@ -17,12 +17,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, MapImageError> {
     let cells = cell_count(width, height)?;
     let found = plausible(bytes);
     if cells > found {
-        return Err(MapImageError::WrongLength {
-            width,
-            height,
-            need: cells,
-            found,
-        });
+        return Err(MapImageError::WrongLength { width, height, need: cells, found });
     }
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(SCRATCH_BYTES);
@@ -53,13 +48,7 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, MapImageError> {
     } else {
         (255, Samples::Narrow(data))
     };
-    Ok(Raster {
-        width,
-        height,
-        max,
-        channels,
-        samples,
-    })
+    Ok(Raster { width, height, max, channels, samples })
 }
 
 /// A PNG of (grey, alpha) pairs, top row first.
@@ -114,13 +103,9 @@ fn ends_properly(bytes: &[u8]) -> bool {
 }
 
 fn png_error(error: ImageError) -> MapImageError {
-    MapImageError::Png {
-        message: error.to_string(),
-    }
+    MapImageError::Png { message: error.to_string() }
 }
 
 fn refusal(message: &str) -> MapImageError {
-    MapImageError::Png {
-        message: message.to_owned(),
-    }
+    MapImageError::Png { message: message.to_owned() }
 }

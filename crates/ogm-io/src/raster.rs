@@ -64,9 +64,7 @@ impl Raster {
         match bytes {
             [0x89, b'P', b'N', b'G', ..] => png::decode(bytes),
             [b'P', b'2' | b'5', ..] => pgm::decode(bytes),
-            _ => Err(MapImageError::Format {
-                start: excerpt(bytes),
-            }),
+            _ => Err(MapImageError::Format { start: excerpt(bytes) }),
         }
     }
 
@@ -106,24 +104,15 @@ pub(crate) fn cell_count(width: usize, height: usize) -> Result<usize, GridError
     if width == 0 || height == 0 {
         return Err(GridError::ZeroArea { width, height });
     }
-    width
-        .checked_mul(height)
-        .filter(|&cells| cells <= MAX_CELLS)
-        .ok_or(GridError::TooLarge {
-            width,
-            height,
-            limit: MAX_CELLS,
-        })
+    width.checked_mul(height).filter(|&cells| cells <= MAX_CELLS).ok_or(GridError::TooLarge {
+        width,
+        height,
+        limit: MAX_CELLS,
+    })
 }
 
 /// The first bytes, escaped for an error message.
 pub(crate) fn excerpt(bytes: &[u8]) -> String {
     const LENGTH: usize = 16;
-    bytes
-        .iter()
-        .take(LENGTH)
-        .copied()
-        .collect::<Vec<_>>()
-        .escape_ascii()
-        .to_string()
+    bytes.iter().take(LENGTH).copied().collect::<Vec<_>>().escape_ascii().to_string()
 }

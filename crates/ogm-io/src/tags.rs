@@ -25,10 +25,7 @@ pub fn read_tags(path: &Path) -> Result<Vec<TagReading>, IoError> {
         action: "read",
         cause,
     })?;
-    parse_tags(&bytes).map_err(|cause| IoError::Tags {
-        path: path.to_owned(),
-        cause,
-    })
+    parse_tags(&bytes).map_err(|cause| IoError::Tags { path: path.to_owned(), cause })
 }
 
 /// Writes a tag log, to the last digit; an existing file is replaced at once or not at all.
@@ -37,17 +34,11 @@ pub fn read_tags(path: &Path) -> Result<Vec<TagReading>, IoError> {
 /// A reading that could not be read back (a number that is not finite, a negative range), or a
 /// folder that cannot be written.
 pub fn write_tags(path: &Path, readings: &[TagReading]) -> Result<(), IoError> {
-    let text = format_tags(readings).map_err(|cause| IoError::Tags {
-        path: path.to_owned(),
-        cause,
-    })?;
+    let text =
+        format_tags(readings).map_err(|cause| IoError::Tags { path: path.to_owned(), cause })?;
     Temporary::write(path, text.as_bytes())
         .and_then(|file| file.put_in_place())
-        .map_err(|cause| IoError::Access {
-            path: path.to_owned(),
-            action: "write",
-            cause,
-        })
+        .map_err(|cause| IoError::Access { path: path.to_owned(), action: "write", cause })
 }
 
 /// The readings in the bytes of a tag log. Blank lines and spaces around values are ignored.
@@ -57,23 +48,13 @@ pub fn write_tags(path: &Path, readings: &[TagReading]) -> Result<(), IoError> {
 /// values, an identifier that is no `u32`, a number that is not finite, a negative range.
 pub fn parse_tags(csv: &[u8]) -> Result<Vec<TagReading>, TagLogError> {
     let text = str::from_utf8(csv).map_err(|error| TagLogError::NotText {
-        line: 1 + csv
-            .iter()
-            .take(error.valid_up_to())
-            .filter(|&&b| b == b'\n')
-            .count(),
+        line: 1 + csv.iter().take(error.valid_up_to()).filter(|&&b| b == b'\n').count(),
     })?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let mut lines = text.lines();
     let header = lines.next().unwrap_or("");
-    if !header
-        .split(',')
-        .map(str::trim)
-        .eq(TAG_LOG_HEADER.split(','))
-    {
-        return Err(TagLogError::Header {
-            found: header.to_owned(),
-        });
+    if !header.split(',').map(str::trim).eq(TAG_LOG_HEADER.split(',')) {
+        return Err(TagLogError::Header { found: header.to_owned() });
     }
     lines
         .enumerate()
@@ -85,19 +66,10 @@ pub fn parse_tags(csv: &[u8]) -> Result<Vec<TagReading>, TagLogError> {
 fn parse_line(line: usize, text: &str) -> Result<TagReading, TagLogError> {
     let values: Vec<&str> = text.split(',').map(str::trim).collect();
     let [tag_id, x, y, range] = values[..] else {
-        return Err(TagLogError::Columns {
-            line,
-            found: values.len(),
-            text: text.to_owned(),
-        });
+        return Err(TagLogError::Columns { line, found: values.len(), text: text.to_owned() });
     };
     let tag_id = tag_id.parse().map_err(|_no_number| {
-        value_error(
-            line,
-            "tag_id",
-            tag_id.to_owned(),
-            "a whole number from 0 to 4294967295",
-        )
+        value_error(line, "tag_id", tag_id.to_owned(), "a whole number from 0 to 4294967295")
     })?;
     let number = |column, text: &str| {
         let value = text.parse().unwrap_or(f64::NAN);
@@ -143,10 +115,5 @@ fn value_error(
     value: String,
     expected: &'static str,
 ) -> TagLogError {
-    TagLogError::Value {
-        line,
-        column,
-        value,
-        expected,
-    }
+    TagLogError::Value { line, column, value, expected }
 }

@@ -51,10 +51,8 @@ pub fn write_map(yaml: &Path, map: &OccupancyGrid, options: &WriteOptions) -> Re
     for target in [yaml, &image] {
         check_target(target, options.overwrite)?;
     }
-    let bytes = encode(map, options.encoding).map_err(|cause| IoError::Image {
-        path: image.clone(),
-        cause,
-    })?;
+    let bytes = encode(map, options.encoding)
+        .map_err(|cause| IoError::Image { path: image.clone(), cause })?;
     let text = yaml_text(map, options.encoding, &image_name);
     let failed = |path: &Path| {
         let path = path.to_owned();
@@ -71,15 +69,9 @@ fn plain_file_name(yaml: &Path, image: &Path) -> Result<String, IoError> {
         let cause = Error::new(ErrorKind::InvalidInput, message);
         Err(access(yaml.to_owned(), cause))
     };
-    let is_image = |extension: &str| {
-        ["pgm", "png"]
-            .iter()
-            .any(|image| extension.eq_ignore_ascii_case(image))
-    };
-    if yaml
-        .extension()
-        .is_some_and(|extension| extension.to_str().is_some_and(is_image))
-    {
+    let is_image =
+        |extension: &str| ["pgm", "png"].iter().any(|image| extension.eq_ignore_ascii_case(image));
+    if yaml.extension().is_some_and(|extension| extension.to_str().is_some_and(is_image)) {
         return refuse("name the map's .yaml; its image goes beside it");
     }
     match image.file_name().map(|name| name.to_str()) {
@@ -92,9 +84,7 @@ fn plain_file_name(yaml: &Path, image: &Path) -> Result<String, IoError> {
 fn check_target(target: &Path, overwrite: bool) -> Result<(), IoError> {
     match fs::symlink_metadata(target) {
         Err(_) => Ok(()),
-        Ok(_) if !overwrite => Err(IoError::Exists {
-            path: target.to_owned(),
-        }),
+        Ok(_) if !overwrite => Err(IoError::Exists { path: target.to_owned() }),
         Ok(metadata) if metadata.is_dir() => {
             let cause = Error::from(ErrorKind::IsADirectory);
             Err(access(target.to_owned(), cause))
@@ -104,11 +94,7 @@ fn check_target(target: &Path, overwrite: bool) -> Result<(), IoError> {
 }
 
 fn access(path: PathBuf, cause: Error) -> IoError {
-    IoError::Access {
-        path,
-        action: "write",
-        cause,
-    }
+    IoError::Access { path, action: "write", cause }
 }
 
 fn encode(map: &OccupancyGrid, encoding: CellEncoding) -> Result<Vec<u8>, MapImageError> {
@@ -133,11 +119,7 @@ fn encode(map: &OccupancyGrid, encoding: CellEncoding) -> Result<Vec<u8>, MapIma
 }
 
 /// Black is p = 1. The 255 steps of p take 255 of the 256 greys, so each has its own.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "p is in [0, 1]"
-)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "p is in [0, 1]")]
 fn grey_and_alpha(cell: Occupancy) -> [u8; 2] {
     match cell.probability() {
         Some(p) => [255 - (p * 255.0).round() as u8, 255],
@@ -167,11 +149,7 @@ fn yaml_text(map: &OccupancyGrid, encoding: CellEncoding, image: &str) -> String
 fn decimal(value: f64) -> String {
     // Adding zero turns -0.0 into 0.0.
     let text = format!("{}", value + 0.0);
-    if text.contains('.') {
-        text
-    } else {
-        text + ".0"
-    }
+    if text.contains('.') { text } else { text + ".0" }
 }
 
 /// A file name as YAML, quoted where it could be taken for something else.

@@ -10,14 +10,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pair = simulate_pair(&FloorPlan::plan_a(), &PairParams::default())?;
     let target_tags = localise(&pair.target.readings, &FilterParams::default())?;
     let source_tags = localise(&pair.source.readings, &FilterParams::default())?;
-    let target = RobotMap {
-        map: &pair.target.map,
-        tags: &target_tags,
-    };
-    let source = RobotMap {
-        map: &pair.source.map,
-        tags: &source_tags,
-    };
+    let target = RobotMap { map: &pair.target.map, tags: &target_tags };
+    let source = RobotMap { map: &pair.source.map, tags: &source_tags };
 
     let (report, merged) = merge(Method::Rfid3, &target, &source, &MergeParams::default())?;
     println!("{} tags in both maps", report.evidence.common_tags.len());
@@ -39,10 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         }
     }
     if let Some(merged) = merged {
-        println!(
-            "{} of {} common cells disagree",
-            merged.conflict_count, merged.compared
-        );
+        println!("{} of {} common cells disagree", merged.conflict_count, merged.compared);
     }
     Ok(())
 }

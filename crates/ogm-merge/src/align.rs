@@ -43,21 +43,11 @@ pub fn align(
     source: &RobotMap<'_>,
     params: &RfidParams,
 ) -> Result<MergeReport, MergeError> {
-    let resolution = target
-        .map
-        .frame()
-        .resolution()
-        .max(source.map.frame().resolution());
+    let resolution = target.map.frame().resolution().max(source.map.frame().resolution());
     let target_map = at_resolution(target.map, resolution, &params.thresholds)?;
     let source_map = at_resolution(source.map, resolution, &params.thresholds)?;
-    let target = RobotMap {
-        map: &target_map,
-        tags: target.tags,
-    };
-    let source = RobotMap {
-        map: &source_map,
-        tags: source.tags,
-    };
+    let target = RobotMap { map: &target_map, tags: target.tags };
+    let source = RobotMap { map: &source_map, tags: source.tags };
 
     let recipe = match method {
         Method::Rfid1 => recipes::tags_alone,
@@ -71,12 +61,7 @@ pub fn align(
         Err(Stop::Refused(refusal)) => Outcome::Refused(refusal),
         Err(Stop::Error(error)) => return Err(error),
     };
-    Ok(MergeReport {
-        method,
-        resolution,
-        evidence,
-        outcome,
-    })
+    Ok(MergeReport { method, resolution, evidence, outcome })
 }
 
 /// [`align`], and the two maps fused in the frame of `target` at its resolution.
@@ -96,14 +81,8 @@ pub fn merge(
     let merged = match &report.outcome {
         Outcome::Found(target_from_source) => {
             let placed = [
-                PlacedMap {
-                    map: target.map,
-                    reference_from_map: Se2::identity(),
-                },
-                PlacedMap {
-                    map: source.map,
-                    reference_from_map: *target_from_source,
-                },
+                PlacedMap { map: target.map, reference_from_map: Se2::identity() },
+                PlacedMap { map: source.map, reference_from_map: *target_from_source },
             ];
             Some(grid_merge::merge(&placed, &params.fusion)?)
         }
@@ -120,8 +99,6 @@ fn at_resolution<'a>(
     if (map.frame().resolution() / resolution - 1.0).abs() <= 1e-6 {
         Ok(Cow::Borrowed(map))
     } else {
-        Ok(Cow::Owned(grid_merge::coarsen(
-            map, resolution, thresholds,
-        )?))
+        Ok(Cow::Owned(grid_merge::coarsen(map, resolution, thresholds)?))
     }
 }

@@ -53,11 +53,7 @@ pub(crate) fn tags_and_walls(
     seen.quadrant = Some(agreed);
     if agreed.confidence == QuadrantConfidence::Ambiguous {
         let (residual_rad, limit_rad) = (agreed.residual.abs(), AMBIGUOUS_ABOVE);
-        return Err(Refusal::Ambiguous {
-            residual_rad,
-            limit_rad,
-        }
-        .into());
+        return Err(Refusal::Ambiguous { residual_rad, limit_rad }.into());
     }
     let target_from_source = anchor_on_best_tag(agreed.theta, &tags)?;
     seen.start_target_from_source = Some(target_from_source);
@@ -75,13 +71,16 @@ pub(crate) fn tags_walls_and_icp(
     let start_target_from_source = tags_and_walls(target, source, params, seen)?;
     let target_points = WallPoints::from_grid(target.map, &params.thresholds)?;
     let source_points = WallPoints::from_grid(source.map, &params.thresholds)?;
-    let alignment = icp2d::align(
-        &target_points,
-        &source_points,
-        start_target_from_source,
-        &params.icp,
-    )?
-    .into_result()?;
+    let start_target_from_source = match &params.start {
+        Some(search) => {
+            icp2d::search_start(&target_points, &source_points, start_target_from_source, search)?
+                .into_result()?
+        }
+        None => start_target_from_source,
+    };
+    let alignment =
+        icp2d::align(&target_points, &source_points, start_target_from_source, &params.icp)?
+            .into_result()?;
     let target_from_source = alignment.target_from_source;
     seen.refinement = Some(alignment);
     if alignment.termination.is_diverged() {

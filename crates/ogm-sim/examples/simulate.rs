@@ -10,9 +10,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     for (name, run) in [("target", &pair.target), ("source", &pair.source)] {
         let count = |class| {
             let cells = run.map.cells().cells().iter();
-            cells
-                .filter(|&&cell| thresholds.classify(cell) == class)
-                .count()
+            cells.filter(|&&cell| thresholds.classify(cell) == class).count()
         };
         println!(
             "{name}: {} x {} cells, {} occupied, {} free, path of {:.1} m, {} tag readings",

@@ -29,12 +29,7 @@ pub struct DriveParams {
 impl Default for DriveParams {
     /// The radius of a small robot and the path of one of plan A.
     fn default() -> Self {
-        Self {
-            seed: 0,
-            clearance: 0.25,
-            length: 40.0,
-            step: 0.03,
-        }
+        Self { seed: 0, clearance: 0.25, length: 40.0, step: 0.03 }
     }
 }
 
@@ -68,20 +63,12 @@ pub fn drive(
     positive("clearance", params.clearance)?;
     check_step(params.step)?;
     let fits = params.length > 0.0 && params.length / params.step <= MAX_STEPS;
-    check(
-        "length",
-        params.length,
-        "above 0 and at most a million steps",
-        fits,
-    )?;
+    check("length", params.length, "above 0 and at most a million steps", fits)?;
     Ok(path_through(map, params).into())
 }
 
 fn path_through(map: &OccupancyGrid, params: &DriveParams) -> Result<Vec<Point2<f64>>, Refusal> {
-    let refusal = |have| Refusal::TooLittleStructure {
-        have,
-        need: cells_in(SMALLEST_REGION, map),
-    };
+    let refusal = |have| Refusal::TooLittleStructure { have, need: cells_in(SMALLEST_REGION, map) };
     let (space, nodes) = region(map, params.clearance).map_err(refusal)?;
     let mut rng = generator(params.seed, Stream::Drive, 0);
     let mut here = nodes[rng.random_range(0..nodes.len())];
@@ -179,11 +166,7 @@ mod tests {
             let wall = (60..63).contains(&x) && !(40..58).contains(&y);
             let hall = (140..290).contains(&x) && (10..90).contains(&y);
             if room || hall {
-                *cell = if wall {
-                    Occupancy::OCCUPIED
-                } else {
-                    Occupancy::FREE
-                };
+                *cell = if wall { Occupancy::OCCUPIED } else { Occupancy::FREE };
             }
         }
         let frame = GridFrame::new(0.05, Se2::new(-3.0, 7.0, 0.8)).unwrap();
@@ -197,10 +180,7 @@ mod tests {
     #[test]
     fn a_drive_stays_in_the_largest_free_region_and_winds() {
         let map = map();
-        let params = DriveParams {
-            seed: 3,
-            ..DriveParams::default()
-        };
+        let params = DriveParams { seed: 3, ..DriveParams::default() };
         let path = path(&map, &params);
         let length: f64 = path.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
         assert!((length - 40.0).abs() < 0.5, "{length} m");
@@ -220,25 +200,15 @@ mod tests {
     #[test]
     fn the_seed_decides_the_drive() {
         let map = map();
-        let params = DriveParams {
-            length: 8.0,
-            ..DriveParams::default()
-        };
+        let params = DriveParams { length: 8.0, ..DriveParams::default() };
         assert_eq!(path(&map, &params), path(&map, &params));
-        assert_ne!(
-            path(&map, &params),
-            path(&map, &DriveParams { seed: 1, ..params })
-        );
+        assert_ne!(path(&map, &params), path(&map, &DriveParams { seed: 1, ..params }));
     }
 
     #[test]
     fn a_robot_too_large_for_the_map_makes_itself_small() {
         let map = map();
-        let params = DriveParams {
-            clearance: 30.0,
-            length: 8.0,
-            ..DriveParams::default()
-        };
+        let params = DriveParams { clearance: 30.0, length: 8.0, ..DriveParams::default() };
         assert!(!path(&map, &params).is_empty());
     }
 
@@ -251,10 +221,7 @@ mod tests {
             let expected = Refusal::TooLittleStructure { have: 0, need: 400 };
             assert_eq!(outcome.refusal(), Some(&expected));
         }
-        let nan = DriveParams {
-            step: f64::NAN,
-            ..DriveParams::default()
-        };
+        let nan = DriveParams { step: f64::NAN, ..DriveParams::default() };
         assert!(drive(&map(), &nan).is_err());
     }
 }

@@ -152,32 +152,16 @@ mod tests {
             let share = (face.start - from).perp(&beam) / denominator;
             (range > 0.0 && (0.0..=1.0).contains(&share)).then_some(range)
         };
-        let nearest = plan
-            .faces()
-            .filter_map(crossing)
-            .fold(f64::INFINITY, f64::min);
-        if nearest > limit {
-            f64::INFINITY
-        } else {
-            nearest
-        }
+        let nearest = plan.faces().filter_map(crossing).fold(f64::INFINITY, f64::min);
+        if nearest > limit { f64::INFINITY } else { nearest }
     }
 
     #[test]
     fn every_beam_ends_at_the_first_face_it_crosses() {
         let plan = FloorPlan::plan_a();
         for params in [
-            LidarParams {
-                range_sigma: 0.0,
-                beams: 181,
-                ..LidarParams::rf()
-            },
-            LidarParams {
-                range_sigma: 0.0,
-                field_of_view: 6.2,
-                beams: 97,
-                ..LidarParams::sa()
-            },
+            LidarParams { range_sigma: 0.0, beams: 181, ..LidarParams::rf() },
+            LidarParams { range_sigma: 0.0, field_of_view: 6.2, beams: 97, ..LidarParams::sa() },
         ] {
             let mut lidar = Lidar::new(&plan, &params);
             let mut rng = generator(0, Stream::Ranges, 0);
@@ -187,10 +171,7 @@ mod tests {
                 for (range, &beam) in ranges.into_iter().zip(lidar.beams()) {
                     let direction = world_from_robot * beam;
                     let truth = brute_force(&plan, Point2::new(x, y), direction, params.max_range);
-                    assert!(
-                        range == truth || (range - truth).abs() < 1e-9,
-                        "{range} {truth}"
-                    );
+                    assert!(range == truth || (range - truth).abs() < 1e-9, "{range} {truth}");
                 }
             }
         }
@@ -199,19 +180,11 @@ mod tests {
     #[test]
     fn ranges_scatter_as_the_sensor_says() {
         let plan = FloorPlan::plan_a();
-        let noisy = LidarParams {
-            range_sigma: 0.02,
-            ..LidarParams::rf()
-        };
-        let exact = LidarParams {
-            range_sigma: 0.0,
-            ..noisy
-        };
+        let noisy = LidarParams { range_sigma: 0.02, ..LidarParams::rf() };
+        let exact = LidarParams { range_sigma: 0.0, ..noisy };
         let world_from_robot = Se2::new(3.4, 3.6, 0.3);
         let mut rng = generator(5, Stream::Ranges, 0);
-        let truth = Lidar::new(&plan, &exact)
-            .scan(world_from_robot, &mut rng)
-            .to_vec();
+        let truth = Lidar::new(&plan, &exact).scan(world_from_robot, &mut rng).to_vec();
         let mut lidar = Lidar::new(&plan, &noisy);
         let (mut sum, mut squares, mut count) = (0.0, 0.0, 0.0);
         for _ in 0..20 {
@@ -231,15 +204,8 @@ mod tests {
     #[test]
     fn spurious_readings_are_short_and_as_many_as_asked_for() {
         let plan = FloorPlan::plan_a();
-        let params = LidarParams {
-            spurious_share: 0.1,
-            range_sigma: 0.0,
-            ..LidarParams::rf()
-        };
-        let exact = LidarParams {
-            spurious_share: 0.0,
-            ..params
-        };
+        let params = LidarParams { spurious_share: 0.1, range_sigma: 0.0, ..LidarParams::rf() };
+        let exact = LidarParams { spurious_share: 0.0, ..params };
         let pose = Se2::new(3.4, 3.6, 0.3);
         let mut rng = generator(6, Stream::Ranges, 0);
         let truth = Lidar::new(&plan, &exact).scan(pose, &mut rng).to_vec();

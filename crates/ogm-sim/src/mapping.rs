@@ -22,12 +22,7 @@ impl CellBox {
         points: impl IntoIterator<Item = Point2<f64>>,
     ) -> Option<Self> {
         let cells = points.into_iter().map(|point| frame.lattice_cell(point));
-        cells
-            .map(|cell| Self {
-                low: cell,
-                high: cell,
-            })
-            .reduce(Self::union)
+        cells.map(|cell| Self { low: cell, high: cell }).reduce(Self::union)
     }
 
     pub(crate) fn union(self, other: Self) -> Self {
@@ -46,9 +41,7 @@ impl CellBox {
 
     fn size(&self) -> [usize; 2] {
         [0, 1].map(|axis| {
-            let cells = self.high[axis]
-                .saturating_sub(self.low[axis])
-                .saturating_add(1);
+            let cells = self.high[axis].saturating_sub(self.low[axis]).saturating_add(1);
             usize::try_from(cells).unwrap_or(0)
         })
     }
@@ -79,10 +72,7 @@ impl Mapper {
         let lattice = GridFrame::new(params.resolution, Se2::identity())?;
         let reach = Vector2::repeat(max_range + 2.0 * params.resolution);
         let corners = positions.iter().flat_map(|p| [p - reach, p + reach]);
-        let nothing = CellBox {
-            low: [0, 0],
-            high: [0, 0],
-        };
+        let nothing = CellBox { low: [0, 0], high: [0, 0] };
         let bounds = CellBox::around(&lattice, corners).unwrap_or(nothing);
         let [width, height] = bounds.size();
         // Refuses absurd sizes before they are allocated.
@@ -109,9 +99,7 @@ impl Mapper {
         max_range: f64,
     ) {
         self.scan += 1;
-        let cells = self
-            .lattice
-            .cells_from_point(map_from_robot.translation().into());
+        let cells = self.lattice.cells_from_point(map_from_robot.translation().into());
         let [column, row] = self.bounds.low;
         let start = cells - Vector2::new(column as f64, row as f64);
         let per_metre = 1.0 / self.params.resolution;
@@ -121,11 +109,8 @@ impl Mapper {
             }
         }
         for (&beam, &range) in beams.iter().zip(ranges) {
-            let length = if range.is_finite() {
-                range * per_metre - 1.0
-            } else {
-                max_range * per_metre
-            };
+            let length =
+                if range.is_finite() { range * per_metre - 1.0 } else { max_range * per_metre };
             if length > 0.0 {
                 self.clear(start, map_from_robot * beam, length);
             }
@@ -207,9 +192,7 @@ impl Mapper {
             for row in 0..seen.size()[1] {
                 let from = (offset(1, self.bounds) + row) * self.width + offset(0, self.bounds);
                 let to = (offset(1, area) + row) * width + offset(0, area);
-                let observed = self.stamps[from..][..columns]
-                    .iter()
-                    .map(|&stamp| stamp > 0);
+                let observed = self.stamps[from..][..columns].iter().map(|&stamp| stamp > 0);
                 let log_odds = &self.log_odds[from..][..columns];
                 let output = cells.cells_mut()[to..][..columns].iter_mut();
                 let covered = coverage.cells_mut()[to..][..columns].iter_mut();
@@ -233,10 +216,7 @@ impl Mapper {
         rows.filter_map(|(stamps, row)| {
             let first = stamps.iter().position(|&stamp| stamp > 0)?;
             let last = stamps.iter().rposition(|&stamp| stamp > 0)?;
-            Some(CellBox {
-                low: [left + first as i64, row],
-                high: [left + last as i64, row],
-            })
+            Some(CellBox { low: [left + first as i64, row], high: [left + last as i64, row] })
         })
         .reduce(CellBox::union)
     }
@@ -252,10 +232,7 @@ mod tests {
     const ALONG: [Vector2<f64>; 1] = [Vector2::new(1.0, 0.0)];
 
     fn mapper(resolution: f64) -> Mapper {
-        let params = MappingParams {
-            resolution,
-            ..MappingParams::default()
-        };
+        let params = MappingParams { resolution, ..MappingParams::default() };
         Mapper::new(&params, &[Point2::new(0.5, 0.5)], 8.0).unwrap()
     }
 
@@ -265,12 +242,7 @@ mod tests {
         let cells = map.cells().row(row).iter().map(|cell| cell.log_odds());
         let known: Vec<_> = cells.collect();
         let covered = coverage.row(row).iter();
-        assert!(
-            known
-                .iter()
-                .zip(covered)
-                .all(|(cell, &covered)| cell.is_some() == covered)
-        );
+        assert!(known.iter().zip(covered).all(|(cell, &covered)| cell.is_some() == covered));
         known
     }
 
@@ -327,10 +299,7 @@ mod tests {
     fn a_box_to_keep_is_kept_and_the_lattice_goes_through_the_origin() {
         let mut mapper = mapper(0.5);
         mapper.add_scan(Se2::new(0.5, 0.5, 0.3), &ALONG, &[2.0], 8.0);
-        let keep = CellBox {
-            low: [-3, -7],
-            high: [11, 9],
-        };
+        let keep = CellBox { low: [-3, -7], high: [11, 9] };
         let (map, _) = mapper.finish(Some(keep)).unwrap();
         assert_eq!((map.width(), map.height()), (15, 17));
         assert_eq!(map.frame().map_from_grid(), Se2::new(-1.5, -3.5, 0.0));

@@ -66,9 +66,8 @@ impl FreeSpace {
             stride,
             region: Grid::filled(columns, rows, false).ok()?,
         };
-        let fits: Vec<bool> = (0..columns * rows)
-            .map(|node| space.fits(space.cell_of(node), 1.0))
-            .collect();
+        let fits: Vec<bool> =
+            (0..columns * rows).map(|node| space.fits(space.cell_of(node), 1.0)).collect();
         space.region = Grid::new(columns, rows, fits).ok()?;
         Some(space)
     }
@@ -107,9 +106,7 @@ impl FreeSpace {
 
     /// Whether the disc can move straight from `from` to `to`.
     pub(crate) fn is_clear_between(&self, from: Point2<f64>, to: Point2<f64>) -> bool {
-        let pieces = ((to - from).norm() / self.frame.resolution())
-            .ceil()
-            .max(1.0);
+        let pieces = ((to - from).norm() / self.frame.resolution()).ceil().max(1.0);
         let share = |piece: u32| f64::from(piece) / pieces;
         (0_u32..)
             .map(share)
@@ -184,18 +181,16 @@ impl FreeSpace {
             let mut next = at + 1;
             let mut leap = 1;
             // Doubling finds a far visible node with few tests; it need not be the furthest.
-            while let Some(further) = Some(next + leap)
-                .filter(|&n| n < points.len())
-                .filter(visible)
+            while let Some(further) =
+                Some(next + leap).filter(|&n| n < points.len()).filter(visible)
             {
                 next = further;
                 leap *= 2;
             }
             while leap > 1 {
                 leap /= 2;
-                if let Some(further) = Some(next + leap)
-                    .filter(|&n| n < points.len())
-                    .filter(visible)
+                if let Some(further) =
+                    Some(next + leap).filter(|&n| n < points.len()).filter(visible)
                 {
                     next = further;
                 }
@@ -208,10 +203,7 @@ impl FreeSpace {
 
     fn cell_of(&self, node: Node) -> CellIndex {
         let at = self.region.index_of(node);
-        CellIndex {
-            column: at.column * self.stride,
-            row: at.row * self.stride,
-        }
+        CellIndex { column: at.column * self.stride, row: at.row * self.stride }
     }
 
     fn fits(&self, cell: CellIndex, share: f64) -> bool {
@@ -220,12 +212,7 @@ impl FreeSpace {
         let Some(&distance_sq) = self.distance_sq.get(cell) else {
             return false;
         };
-        let to_border = [
-            cell.column + 1,
-            cell.row + 1,
-            width - cell.column,
-            height - cell.row,
-        ];
+        let to_border = [cell.column + 1, cell.row + 1, width - cell.column, height - cell.row];
         let nearest = to_border.into_iter().min().unwrap_or(0) as f64;
         nearest >= clearance && f64::from(distance_sq) >= clearance * clearance
     }
@@ -256,10 +243,7 @@ impl FreeSpace {
             .filter(move |&index| index != at && self.region.get(index) == Some(&true))
             .map(move |index| {
                 let diagonal = index.row != at.row && index.column != at.column;
-                (
-                    index.row * columns + index.column,
-                    if diagonal { 14 } else { 10 },
-                )
+                (index.row * columns + index.column, if diagonal { 14 } else { 10 })
             })
     }
 
@@ -316,11 +300,7 @@ mod tests {
         let way = space.way(from, to).unwrap();
         assert_eq!((way[0], *way.last().unwrap()), (from, to));
         let corners = space.straightened(&way);
-        assert!(
-            corners
-                .windows(2)
-                .all(|ends| space.is_clear_between(ends[0], ends[1]))
-        );
+        assert!(corners.windows(2).all(|ends| space.is_clear_between(ends[0], ends[1])));
         assert!((3..=6).contains(&corners.len()), "{corners:?}");
     }
 

@@ -60,10 +60,5 @@ pub fn simulate_pair(plan: &FloorPlan, params: &PairParams) -> Result<SimulatedP
     };
     let (target, source) = (run(Robot::Target)?, run(Robot::Source)?);
     let target_from_source = target.world_from_map.between(&source.world_from_map);
-    Ok(SimulatedPair {
-        target,
-        source,
-        target_from_source,
-        tags,
-    })
+    Ok(SimulatedPair { target, source, target_from_source, tags })
 }

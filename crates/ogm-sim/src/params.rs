@@ -40,10 +40,7 @@ impl PairParams {
     pub fn sa() -> Self {
         Self {
             lidar: LidarParams::sa(),
-            mapping: MappingParams {
-                resolution: 0.05,
-                ..MappingParams::default()
-            },
+            mapping: MappingParams { resolution: 0.05, ..MappingParams::default() },
             ..Self::rf()
         }
     }
@@ -53,14 +50,8 @@ impl PairParams {
     pub fn cb() -> Self {
         Self {
             lidar: LidarParams::cb(),
-            mapping: MappingParams {
-                resolution: 0.14,
-                ..MappingParams::default()
-            },
-            drift: DriftParams {
-                odometry_share: 0.01,
-                compass_sigma: 2.0_f64.to_radians(),
-            },
+            mapping: MappingParams { resolution: 0.14, ..MappingParams::default() },
+            drift: DriftParams { odometry_share: 0.01, compass_sigma: 2.0_f64.to_radians() },
             ..Self::rf()
         }
     }
@@ -143,12 +134,7 @@ impl LidarParams {
 
     fn check(&self) -> Result<(), SimError> {
         positive("field_of_view", self.field_of_view)?;
-        at_most(
-            "field_of_view",
-            self.field_of_view,
-            TAU,
-            "at most a full turn",
-        )?;
+        at_most("field_of_view", self.field_of_view, TAU, "at most a full turn")?;
         if !(2..=1_000_000).contains(&self.beams) {
             return Err(SimError::InvalidParameter {
                 name: "beams",
@@ -181,12 +167,7 @@ pub struct MappingParams {
 impl Default for MappingParams {
     /// p = 0.70 for a hit and 0.40 for a pass, clamped to ±8: common values.
     fn default() -> Self {
-        Self {
-            resolution: 0.02,
-            occupied_update: 0.85,
-            free_update: -0.4,
-            limit: 8.0,
-        }
+        Self { resolution: 0.02, occupied_update: 0.85, free_update: -0.4, limit: 8.0 }
     }
 }
 
@@ -277,13 +258,5 @@ pub(crate) fn check(
     expected: &'static str,
     holds: bool,
 ) -> Result<(), SimError> {
-    if holds {
-        Ok(())
-    } else {
-        Err(SimError::InvalidParameter {
-            name,
-            expected,
-            value,
-        })
-    }
+    if holds { Ok(()) } else { Err(SimError::InvalidParameter { name, expected, value }) }
 }

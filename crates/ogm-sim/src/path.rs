@@ -19,11 +19,7 @@ pub(crate) fn smooth(
     let mut dense = Vec::new();
     for (index, ends) in points.windows(2).enumerate() {
         let [from, to] = [ends[0], ends[1]];
-        let before = if index > 0 {
-            points[index - 1]
-        } else {
-            from + (from - to)
-        };
+        let before = if index > 0 { points[index - 1] } else { from + (from - to) };
         let after = points.get(index + 2).copied().unwrap_or(to + (to - from));
         let start = dense.len();
         dense.extend(span([before, from, to, after], step));
@@ -49,9 +45,7 @@ fn first_blocked(
 /// Share `i / n` for `n` pieces of at most half a step over `length`.
 fn shares(length: f64, step: f64) -> impl Iterator<Item = f64> {
     let pieces = (2.0 * length / step).ceil().max(1.0);
-    (0_u32..)
-        .map(move |i| f64::from(i) / pieces)
-        .take_while(|&share| share < 1.0)
+    (0_u32..).map(move |i| f64::from(i) / pieces).take_while(|&share| share < 1.0)
 }
 
 fn line(from: Point2<f64>, to: Point2<f64>, step: f64) -> impl Iterator<Item = Point2<f64>> {
@@ -72,11 +66,7 @@ fn span([p0, p1, p2, p3]: [Point2<f64>; 4], step: f64) -> impl Iterator<Item = P
     // on it, and that is made even afterwards.
     shares(1.5 * (p2 - p1).norm(), step).map(move |share| {
         let t = t1 + (t2 - t1) * share;
-        let [a, b, c] = [
-            mix(p0, p1, t0, t1, t),
-            mix(p1, p2, t1, t2, t),
-            mix(p2, p3, t2, t3, t),
-        ];
+        let [a, b, c] = [mix(p0, p1, t0, t1, t), mix(p1, p2, t1, t2, t), mix(p2, p3, t2, t3, t)];
         mix(mix(a, b, t0, t2, t), mix(b, c, t1, t3, t), t1, t2, t)
     })
 }
@@ -123,31 +113,19 @@ mod tests {
     use nalgebra::Point2;
 
     fn corner() -> Vec<Point2<f64>> {
-        [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [4.0, 2.0]]
-            .map(Point2::from)
-            .to_vec()
+        [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [4.0, 2.0]].map(Point2::from).to_vec()
     }
 
     #[test]
     fn a_path_passes_its_way_points_in_even_steps_and_turns_smoothly() {
         let path = smooth(&corner(), 0.03, |_| true).unwrap();
         for point in corner() {
-            let nearest = path
-                .iter()
-                .map(|p| (p - point).norm())
-                .fold(f64::INFINITY, f64::min);
+            let nearest = path.iter().map(|p| (p - point).norm()).fold(f64::INFINITY, f64::min);
             assert!(nearest < 0.03, "{point} is {nearest} m off the path");
         }
         let steps = path.windows(2).map(|ends| (ends[1] - ends[0]).norm());
-        assert!(
-            steps
-                .into_iter()
-                .all(|step| (0.0295..=0.0300001).contains(&step))
-        );
-        let turns = headings(&path)
-            .windows(2)
-            .map(|h| (h[1] - h[0]).abs())
-            .fold(0.0, f64::max);
+        assert!(steps.into_iter().all(|step| (0.0295..=0.0300001).contains(&step)));
+        let turns = headings(&path).windows(2).map(|h| (h[1] - h[0]).abs()).fold(0.0, f64::max);
         assert!(turns < 0.15, "{turns} rad in one step");
     }
 

@@ -66,12 +66,7 @@ impl Solid {
     /// A rectangle of `size` about `centre`, turned by `angle` radians.
     pub(crate) fn new(kind: Kind, centre: Point2<f64>, size: Vector2<f64>, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
-        Self {
-            kind,
-            centre,
-            half: size / 2.0,
-            along: Vector2::new(cos, sin),
-        }
+        Self { kind, centre, half: size / 2.0, along: Vector2::new(cos, sin) }
     }
 
     /// The same with x and y swapped.
@@ -93,9 +88,7 @@ impl Solid {
 
     fn faces(&self) -> impl Iterator<Item = Face> {
         let [a, b, c, d] = self.corners();
-        [(a, b), (b, c), (c, d), (d, a)]
-            .into_iter()
-            .map(|(start, end)| Face { start, end })
+        [(a, b), (b, c), (c, d), (d, a)].into_iter().map(|(start, end)| Face { start, end })
     }
 
     /// Metres from `point` to the outline, below 0 inside.
@@ -103,11 +96,7 @@ impl Solid {
         let (dx, dy) = (point.x - self.centre.x, point.y - self.centre.y);
         let x = (self.along.x * dx + self.along.y * dy).abs() - self.half.x;
         let y = (self.along.x * dy - self.along.y * dx).abs() - self.half.y;
-        if x > 0.0 && y > 0.0 {
-            x.hypot(y)
-        } else {
-            x.max(y)
-        }
+        if x > 0.0 && y > 0.0 { x.hypot(y) } else { x.max(y) }
     }
 }
 
@@ -130,12 +119,7 @@ impl FloorPlan {
         target_route: Vec<Point2<f64>>,
         source_route: Vec<Point2<f64>>,
     ) -> Self {
-        Self {
-            size,
-            solids,
-            target_route,
-            source_route,
-        }
+        Self { size, solids, target_route, source_route }
     }
 
     /// Seven rooms along a corridor, 14 × 12 m, in the proportions of the test building of
@@ -171,11 +155,7 @@ impl FloorPlan {
 
     /// The same floor with other routes.
     pub(crate) fn with_routes(self, target: Vec<Point2<f64>>, source: Vec<Point2<f64>>) -> Self {
-        Self {
-            target_route: target,
-            source_route: source,
-            ..self
-        }
+        Self { target_route: target, source_route: source, ..self }
     }
 
     /// Every side of every wall and piece of furniture.
@@ -192,19 +172,14 @@ impl FloorPlan {
     /// Whether `point` lies in a wall or a piece of furniture.
     #[must_use]
     pub fn is_solid(&self, point: Point2<f64>) -> bool {
-        self.solids
-            .iter()
-            .any(|solid| solid.signed_distance(point) <= 0.0)
+        self.solids.iter().any(|solid| solid.signed_distance(point) <= 0.0)
     }
 
     /// Metres from `point` to the nearest face, from inside or outside of its solid; infinite on
     /// an empty floor.
     #[must_use]
     pub fn distance_to_face(&self, point: Point2<f64>) -> f64 {
-        let distances = self
-            .solids
-            .iter()
-            .map(|solid| solid.signed_distance(point).abs());
+        let distances = self.solids.iter().map(|solid| solid.signed_distance(point).abs());
         distances.fold(f64::INFINITY, f64::min)
     }
 
@@ -267,10 +242,7 @@ mod tests {
 
     #[test]
     fn distance_is_to_the_segment_and_not_to_its_line() {
-        let face = Face {
-            start: Point2::new(0.0, 0.0),
-            end: Point2::new(1.0, 0.0),
-        };
+        let face = Face { start: Point2::new(0.0, 0.0), end: Point2::new(1.0, 0.0) };
         assert_eq!(face.distance(Point2::new(0.5, 2.0)), 2.0);
         assert_eq!(face.distance(Point2::new(4.0, 4.0)), 5.0);
     }
@@ -284,9 +256,6 @@ mod tests {
         let walls_and_boxes = 0.0004 * solid as f64;
         // Outer walls 5.91, corridor 3.20 less doors 0.76, partitions 2.92, furniture 7.69, less
         // 0.12 m² that two of them share.
-        assert!(
-            (walls_and_boxes - 18.84).abs() < 0.1,
-            "{walls_and_boxes} m²"
-        );
+        assert!((walls_and_boxes - 18.84).abs() < 0.1, "{walls_and_boxes} m²");
     }
 }

@@ -45,10 +45,7 @@ impl FloorPlan {
         let mut lines = 0;
         for (index, line) in text.lines().enumerate() {
             lines = index + 1;
-            let syntax = |expected| SimError::PlanSyntax {
-                line: index + 1,
-                expected,
-            };
+            let syntax = |expected| SimError::PlanSyntax { line: index + 1, expected };
             let line = line.split('#').next().unwrap_or_default();
             let mut words = line.split_whitespace();
             match words.next() {
@@ -73,22 +70,14 @@ impl FloorPlan {
                     let [x, y, width] = numbers(words)
                         .filter(|&[_, _, width]: &[f64; 3]| width > 0.0)
                         .ok_or_else(|| syntax("door X Y WIDTH"))?;
-                    doors.push(Door {
-                        centre: Point2::new(x, y),
-                        width,
-                    });
+                    doors.push(Door { centre: Point2::new(x, y), width });
                 }
                 Some("box") => {
                     let [x, y, w, h, degrees] = numbers(words)
                         .filter(|&[_, _, w, h, _]: &[f64; 5]| w > 0.0 && h > 0.0)
                         .ok_or_else(|| syntax("box CX CY W H DEGREES"))?;
                     let (centre, size) = (Point2::new(x, y), Vector2::new(w, h));
-                    solids.push(Solid::new(
-                        Kind::Furniture,
-                        centre,
-                        size,
-                        degrees.to_radians(),
-                    ));
+                    solids.push(Solid::new(Kind::Furniture, centre, size, degrees.to_radians()));
                 }
                 Some("route") => {
                     let route = match words.next() {
@@ -102,10 +91,7 @@ impl FloorPlan {
                 Some(_) => return Err(syntax("size, wall, door, box or route")),
             }
         }
-        let missing = |expected| SimError::PlanSyntax {
-            line: lines,
-            expected,
-        };
+        let missing = |expected| SimError::PlanSyntax { line: lines, expected };
         let size = size.ok_or_else(|| missing("a line size W H before the end"))?;
         if target.len() < 2 || source.len() < 2 {
             return Err(missing("two way points for each robot before the end"));
@@ -131,8 +117,7 @@ fn number(word: &str) -> Option<f64> {
 fn way_points<'a>(words: impl Iterator<Item = &'a str>) -> Option<Vec<Point2<f64>>> {
     let values: Vec<f64> = words.map(number).collect::<Option<_>>()?;
     let (pairs, rest) = values.as_chunks::<2>();
-    rest.is_empty()
-        .then(|| pairs.iter().map(|&[x, y]| Point2::new(x, y)).collect())
+    rest.is_empty().then(|| pairs.iter().map(|&[x, y]| Point2::new(x, y)).collect())
 }
 
 /// The pieces of the walls that the doors leave.
@@ -180,10 +165,7 @@ mod tests {
         for (x, solid) in [(1.59, true), (1.61, false), (2.39, false), (2.41, true)] {
             assert_eq!(plan.is_solid(Point2::new(x, 2.0)), solid, "x = {x}");
         }
-        assert_eq!(
-            plan.route(Robot::Source),
-            [[2.0, 2.0].into(), [1.0, 1.0].into()]
-        );
+        assert_eq!(plan.route(Robot::Source), [[2.0, 2.0].into(), [1.0, 1.0].into()]);
     }
 
     #[test]

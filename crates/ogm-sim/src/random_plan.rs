@@ -42,10 +42,7 @@ impl Room {
         let along =
             |low: f64, high: f64, share: f64| low + inset + (high - low - 2.0 * inset) * share;
         let [x, y] = [rng.random(), rng.random()];
-        Point2::new(
-            along(self.low.x, self.high.x, x),
-            along(self.low.y, self.high.y, y),
-        )
+        Point2::new(along(self.low.x, self.high.x, x), along(self.low.y, self.high.y, y))
     }
 }
 
@@ -108,10 +105,7 @@ impl Building {
         let high = low + rng.random_range(1.5..2.1);
         let mut building = Self {
             size,
-            corridor: Room {
-                low: Point2::new(MARGIN, low),
-                high: Point2::new(right, high),
-            },
+            corridor: Room { low: Point2::new(MARGIN, low), high: Point2::new(right, high) },
             rooms: Vec::new(),
             walls: Vec::new(),
             doors: Vec::new(),
@@ -127,18 +121,11 @@ impl Building {
     }
 
     fn wall(&mut self, start: [f64; 2], end: [f64; 2]) {
-        self.walls.push(Wall {
-            start: start.into(),
-            end: end.into(),
-            thickness: THICKNESS,
-        });
+        self.walls.push(Wall { start: start.into(), end: end.into(), thickness: THICKNESS });
     }
 
     fn door(&mut self, x: f64, y: f64) {
-        self.doors.push(Door {
-            centre: Point2::new(x, y),
-            width: DOOR,
-        });
+        self.doors.push(Door { centre: Point2::new(x, y), width: DOOR });
     }
 
     /// Rooms between `low` and `high` on one side of the corridor, each with a door to it, some
@@ -151,11 +138,8 @@ impl Building {
         let mut left = MARGIN;
         for room in 1..=count {
             let even = MARGIN + width * f64::from(room);
-            let right = if room < count {
-                even + rng.random_range(-0.22..0.22) * width
-            } else {
-                even
-            };
+            let right =
+                if room < count { even + rng.random_range(-0.22..0.22) * width } else { even };
             if room < count {
                 self.wall([right, low], [right, high]);
                 if rng.random_bool(0.3) {
@@ -166,21 +150,14 @@ impl Building {
             if rng.random_bool(0.5) {
                 let x = rng.random_range(left + 0.8..right - 0.8);
                 let depth = rng.random_range(0.5..1.2);
-                let tip = if below {
-                    outer_y + depth
-                } else {
-                    outer_y - depth
-                };
+                let tip = if below { outer_y + depth } else { outer_y - depth };
                 self.wall([x, outer_y], [x, tip]);
                 if rng.random_bool(0.4) {
                     let reach = rng.random_range(0.3..0.7);
                     self.wall([x - THICKNESS / 2.0, tip], [x + reach, tip]);
                 }
             }
-            self.rooms.push(Room {
-                low: Point2::new(left, low),
-                high: Point2::new(right, high),
-            });
+            self.rooms.push(Room { low: Point2::new(left, low), high: Point2::new(right, high) });
             left = right;
         }
     }
@@ -199,8 +176,7 @@ impl Building {
                 let centre = room.point(0.5, rng);
                 let keep = DOORSTEP + size.norm() / 2.0 - 0.4;
                 if places.iter().all(|place| (place - centre).norm() > keep) {
-                    self.furniture
-                        .push(Solid::new(Kind::Furniture, centre, size, angle));
+                    self.furniture.push(Solid::new(Kind::Furniture, centre, size, angle));
                     places.push(centre);
                 }
             }
@@ -234,11 +210,8 @@ mod tests {
 
     /// Points of a lattice of 0.1 m over the plan.
     fn lattice(plan: &FloorPlan) -> impl Iterator<Item = Point2<f64>> {
-        let steps = |side: f64| {
-            (0_u32..)
-                .map(|i| 0.1 * f64::from(i))
-                .take_while(move |&x| x < side)
-        };
+        let steps =
+            |side: f64| (0_u32..).map(|i| 0.1 * f64::from(i)).take_while(move |&x| x < side);
         let size = plan.size();
         steps(size.x).flat_map(move |x| steps(size.y).map(move |y| Point2::new(x, y)))
     }
@@ -249,12 +222,8 @@ mod tests {
             let plan = FloorPlan::random(seed).unwrap();
             let (frame, solid) = plan.raster(0.05).unwrap();
             let start = plan.route(Robot::Target)[0];
-            let reached = FreeSpace::around(&solid, &frame, 0.25, start)
-                .unwrap()
-                .area();
-            let room = lattice(&plan)
-                .filter(|&point| plan.is_clear(point, 0.25))
-                .count();
+            let reached = FreeSpace::around(&solid, &frame, 0.25, start).unwrap().area();
+            let room = lattice(&plan).filter(|&point| plan.is_clear(point, 0.25)).count();
             let share = reached / (0.01 * room as f64);
             assert!(share > 0.93, "{share} of plan {seed}");
         }
@@ -265,18 +234,13 @@ mod tests {
         for seed in 0..4 {
             let plan = FloorPlan::random(seed).unwrap();
             let size = plan.size();
-            let solid: Vec<_> = lattice(&plan)
-                .filter(|&point| plan.is_solid(point))
-                .collect();
+            let solid: Vec<_> = lattice(&plan).filter(|&point| plan.is_solid(point)).collect();
             let kept = solid.iter().filter(|point| {
                 let turned = Point2::new(size.x - point.x, size.y - point.y);
                 plan.is_solid(turned) || plan.distance_to_face(turned) < 0.05
             });
             let share = kept.count() as f64 / solid.len() as f64;
-            assert!(
-                share < 0.95,
-                "{share} of plan {seed} stays under half a turn"
-            );
+            assert!(share < 0.95, "{share} of plan {seed} stays under half a turn");
         }
     }
 }

@@ -69,23 +69,16 @@ fn rooms_each(rooms: &[Room], corridor: f64) -> [usize; 2] {
 
 /// Reachable places of a room that lie apart.
 fn places_in(room: &Room, space: &FreeSpace, rng: &mut ChaCha8Rng) -> Vec<Node> {
-    let candidates: Vec<Node> = (0..40)
-        .filter_map(|_| space.node_near(room.point(0.6, rng)))
-        .collect();
+    let candidates: Vec<Node> =
+        (0..40).filter_map(|_| space.node_near(room.point(0.6, rng))).collect();
     let mut places: Vec<Node> = candidates.first().copied().into_iter().collect();
     while places.len() < PLACES && places.len() < candidates.len() {
         let apart = |&node: &Node| {
-            let distances = places
-                .iter()
-                .map(|&other| (space.point(node) - space.point(other)).norm());
+            let distances =
+                places.iter().map(|&other| (space.point(node) - space.point(other)).norm());
             distances.fold(f64::INFINITY, f64::min)
         };
-        places.extend(
-            candidates
-                .iter()
-                .copied()
-                .max_by(|a, b| apart(a).total_cmp(&apart(b))),
-        );
+        places.extend(candidates.iter().copied().max_by(|a, b| apart(a).total_cmp(&apart(b))));
     }
     places
 }

@@ -92,10 +92,7 @@ pub fn survey(
     let world_from_map = Se2::new(0.0, 0.0, map_heading);
     let target = plan.path(Robot::Target, params.step)?;
     let source = plan.path(Robot::Source, params.step)?;
-    let paths = [
-        (Robot::Target, target.as_slice()),
-        (Robot::Source, source.as_slice()),
-    ];
+    let paths = [(Robot::Target, target.as_slice()), (Robot::Source, source.as_slice())];
     let size = plan.size();
     // A corner on a lattice line belongs to the cell inside the plan.
     let inset = 1e-6;
@@ -125,21 +122,13 @@ fn map_along_paths(
     }
     let theta = world_from_map.theta();
     let finite = world_from_map.is_finite();
-    check(
-        "world_from_map (its heading)",
-        theta,
-        "finite in all parts",
-        finite,
-    )?;
+    check("world_from_map (its heading)", theta, "finite in all parts", finite)?;
     let map_from_world = world_from_map.inverse();
     let drives: Vec<Drive> = paths
         .iter()
         .map(|&(robot, path)| Drive::new(robot, path, map_from_world, params))
         .collect();
-    let believed: Vec<_> = drives
-        .iter()
-        .flat_map(|drive| drive.believed.clone())
-        .collect();
+    let believed: Vec<_> = drives.iter().flat_map(|drive| drive.believed.clone()).collect();
     let max_range = params.lidar.max_range;
     let mut mapper = Mapper::new(&params.mapping, &believed, max_range)?;
     let mut lidar = Lidar::new(plan, &params.lidar);
@@ -157,34 +146,15 @@ fn map_along_paths(
             mapper.add_scan(map_from_robot, lidar.beams(), lidar.ranges(), max_range);
         }
         let true_path: Vec<_> = drive.path.iter().map(|&p| map_from_world * p).collect();
-        let tags: Vec<_> = tags
-            .iter()
-            .map(|&(id, tag)| (id, map_from_world * tag))
-            .collect();
+        let tags: Vec<_> = tags.iter().map(|&(id, tag)| (id, map_from_world * tag)).collect();
         let (seed, robot) = (params.seed, drive.robot as u64);
-        readings.extend(read_along(
-            &true_path,
-            &drive.believed,
-            &tags,
-            &params.tags,
-            seed,
-            robot,
-        )?);
+        readings.extend(read_along(&true_path, &drive.believed, &tags, &params.tags, seed, robot)?);
     }
     let keep = keep.and_then(|corners| {
-        CellBox::around(
-            mapper.lattice(),
-            corners.iter().map(|&p| map_from_world * p),
-        )
+        CellBox::around(mapper.lattice(), corners.iter().map(|&p| map_from_world * p))
     });
     let (map, coverage) = mapper.finish(keep)?;
-    Ok(RobotRun {
-        map,
-        coverage,
-        readings,
-        world_from_map,
-        path: believed,
-    })
+    Ok(RobotRun { map, coverage, readings, world_from_map, path: believed })
 }
 
 /// Where a robot is and where it believes to be.
@@ -217,12 +187,7 @@ impl<'a> Drive<'a> {
                 map_from_world * (point + error)
             })
             .collect();
-        Self {
-            robot,
-            path,
-            headings: headings(path),
-            believed,
-        }
+        Self { robot, path, headings: headings(path), believed }
     }
 }
 

@@ -51,10 +51,7 @@ fn bounding_box(mask: &Grid<bool>) -> Option<[[usize; 2]; 2]> {
         .filter(|(_, set)| **set)
         .map(|(cell, _)| [[cell.column; 2], [cell.row; 2]])
         .reduce(|[a, b], [c, d]| {
-            [
-                [a[0].min(c[0]), a[1].max(c[1])],
-                [b[0].min(d[0]), b[1].max(d[1])],
-            ]
+            [[a[0].min(c[0]), a[1].max(c[1])], [b[0].min(d[0]), b[1].max(d[1])]]
         })
 }
 
@@ -63,9 +60,7 @@ mod tests {
     use crate::{FloorPlan, SimError};
 
     fn plan(solids: &str) -> Result<FloorPlan, SimError> {
-        FloorPlan::parse(&format!(
-            "size 6 6\nroute target 1 1 2 2\nroute source 2 2 1 1\n{solids}"
-        ))
+        FloorPlan::parse(&format!("size 6 6\nroute target 1 1 2 2\nroute source 2 2 1 1\n{solids}"))
     }
 
     #[test]
@@ -73,10 +68,7 @@ mod tests {
         let square = "box 3 1 4 0.1 0\nbox 3 5 4 0.1 0\nbox 1 3 0.1 4 0\nbox 5 3 0.1 4 0\n";
         assert_eq!(plan(square), Err(SimError::SymmetricPlan { degrees: 90 }));
         let half_turn = format!("{square}box 2 2 0.5 0.3 0\nbox 4 4 0.5 0.3 0");
-        assert_eq!(
-            plan(&half_turn),
-            Err(SimError::SymmetricPlan { degrees: 180 })
-        );
+        assert_eq!(plan(&half_turn), Err(SimError::SymmetricPlan { degrees: 180 }));
         assert!(plan(&format!("{square}box 2 2 0.5 0.3 0")).is_ok());
     }
 }

@@ -37,12 +37,9 @@ pub fn place_tags(
     let mut tags: Vec<(u32, Point2<f64>)> = Vec::with_capacity(params.count.min(1024));
     let mut spacing = SPACING;
     while tags.len() < params.count {
-        let place = (0..TRIALS)
-            .filter_map(|_| on_a_face(&faces, &mut rng))
-            .find(|(tag, outward)| {
-                let apart = tags
-                    .iter()
-                    .all(|(_, other)| (other - tag).norm() >= spacing);
+        let place =
+            (0..TRIALS).filter_map(|_| on_a_face(&faces, &mut rng)).find(|(tag, outward)| {
+                let apart = tags.iter().all(|(_, other)| (other - tag).norm() >= spacing);
                 let in_front = tag + outward * (ROBOT_RADIUS + 0.1);
                 apart && room.as_ref().is_some_and(|room| room.reaches(in_front))
             });
@@ -50,10 +47,7 @@ pub fn place_tags(
             (Some((tag, _)), Ok(id)) => tags.push((id, tag)),
             _ if spacing > LEAST_SPACING => spacing = (spacing / 2.0).max(LEAST_SPACING),
             _ => {
-                return Err(SimError::NoPlaceForTags {
-                    placed: tags.len(),
-                    wanted: params.count,
-                });
+                return Err(SimError::NoPlaceForTags { placed: tags.len(), wanted: params.count });
             }
         }
     }
@@ -144,9 +138,7 @@ mod tests {
     use nalgebra::Point2;
 
     fn straight(count: u32) -> Vec<Point2<f64>> {
-        (0..count)
-            .map(|i| Point2::new(0.03 * f64::from(i), 0.0))
-            .collect()
+        (0..count).map(|i| Point2::new(0.03 * f64::from(i), 0.0)).collect()
     }
 
     #[test]
@@ -155,17 +147,10 @@ mod tests {
         let tags = place_tags(&plan, &TagParams::default(), 3).unwrap();
         assert_eq!(tags.len(), 16);
         for (id, tag) in &tags {
-            let on_wall = plan
-                .wall_faces()
-                .map(|face| face.distance(*tag))
-                .fold(1.0, f64::min);
+            let on_wall = plan.wall_faces().map(|face| face.distance(*tag)).fold(1.0, f64::min);
             assert!(on_wall < 1e-9, "tag {id} is {on_wall} m off a wall");
             let others = tags.iter().filter(|(other, _)| other != id);
-            assert!(
-                others
-                    .into_iter()
-                    .all(|(_, other)| (other - tag).norm() > 0.7)
-            );
+            assert!(others.into_iter().all(|(_, other)| (other - tag).norm() > 0.7));
         }
         assert_eq!(tags, place_tags(&plan, &TagParams::default(), 3).unwrap());
         assert_ne!(tags, place_tags(&plan, &TagParams::default(), 4).unwrap());
@@ -173,15 +158,9 @@ mod tests {
 
     #[test]
     fn too_many_tags_are_an_error_and_not_a_loop() {
-        let params = TagParams {
-            count: 5_000,
-            ..TagParams::default()
-        };
+        let params = TagParams { count: 5_000, ..TagParams::default() };
         let placed = place_tags(&FloorPlan::plan_a(), &params, 0);
-        assert!(matches!(
-            placed,
-            Err(SimError::NoPlaceForTags { wanted: 5_000, .. })
-        ));
+        assert!(matches!(placed, Err(SimError::NoPlaceForTags { wanted: 5_000, .. })));
     }
 
     #[test]
@@ -201,11 +180,7 @@ mod tests {
             }
         }
         let in_reach = path.iter().filter(|p| (*p - tag).norm() <= 3.0).count();
-        assert_eq!(
-            count,
-            20.0 * in_reach as f64,
-            "every point within reach is read"
-        );
+        assert_eq!(count, 20.0 * in_reach as f64, "every point within reach is read");
         let (mean, sigma) = (sum / count, f64::sqrt(squares / count));
         assert!(mean.abs() < 5.0 * 0.05 / count.sqrt(), "mean {mean}");
         assert!((sigma - 0.05).abs() < 0.002, "sigma {sigma}");
@@ -214,28 +189,16 @@ mod tests {
     #[test]
     fn bias_and_offset_shift_what_is_read() {
         let tags = [(0, Point2::new(1.0, 1.0))];
-        let exact = TagParams {
-            range_sigma: 0.0,
-            ..TagParams::default()
-        };
+        let exact = TagParams { range_sigma: 0.0, ..TagParams::default() };
         let read = |params| tag_readings(&straight(60), &tags, &params, 1).unwrap();
-        let biased = read(TagParams {
-            range_bias: 0.2,
-            ..exact
-        });
+        let biased = read(TagParams { range_bias: 0.2, ..exact });
         for (biased, exact) in biased.iter().zip(read(exact)) {
             assert!((biased.range - exact.range - 0.2).abs() < 1e-12);
         }
-        let displaced = read(TagParams {
-            tag_position_sigma: 0.1,
-            ..exact
-        });
+        let displaced = read(TagParams { tag_position_sigma: 0.1, ..exact });
         assert_ne!(displaced, read(exact));
 
-        let nan = TagParams {
-            range_sigma: f64::NAN,
-            ..exact
-        };
+        let nan = TagParams { range_sigma: f64::NAN, ..exact };
         assert!(tag_readings(&straight(2), &tags, &nan, 1).is_err());
     }
 }

@@ -18,11 +18,7 @@ pub(crate) fn wander(
     goals: &[Node],
     rng: &mut ChaCha8Rng,
 ) -> Option<Vec<Point2<f64>>> {
-    let mut points: Vec<_> = goals
-        .first()
-        .map(|&goal| space.point(goal))
-        .into_iter()
-        .collect();
+    let mut points: Vec<_> = goals.first().map(|&goal| space.point(goal)).into_iter().collect();
     for ends in goals.windows(2) {
         let way = space.way(ends[0], ends[1])?;
         for stretch in space.straightened(&way).windows(2) {
@@ -54,10 +50,7 @@ fn bent(
             at += STRAIGHT * rng.random_range(0.8..1.4);
         }
         points.push(to);
-        if points
-            .windows(2)
-            .all(|ends| space.is_clear_between(ends[0], ends[1]))
-        {
+        if points.windows(2).all(|ends| space.is_clear_between(ends[0], ends[1])) {
             points.remove(0);
             return points;
         }

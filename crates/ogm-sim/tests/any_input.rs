@@ -6,20 +6,16 @@ use ogm_sim::{DriveParams, FloorPlan, PairParams, Robot, drive, map_along_path};
 use proptest::prelude::{Strategy, any, prop, prop_assert, proptest};
 
 fn line() -> impl Strategy<Value = String> {
-    let word = prop::sample::select(vec![
-        "size", "wall", "door", "box", "route", "target", "#", "x",
-    ]);
+    let word =
+        prop::sample::select(vec!["size", "wall", "door", "box", "route", "target", "#", "x"]);
     let number = -3.0_f64..20.0;
     let numbers = prop::collection::vec(number, 0..7);
-    (
-        word,
-        prop::option::of(prop::sample::select(vec!["target", "source"])),
-        numbers,
-    )
-        .prop_map(|(word, robot, numbers)| {
+    (word, prop::option::of(prop::sample::select(vec!["target", "source"])), numbers).prop_map(
+        |(word, robot, numbers)| {
             let numbers: Vec<String> = numbers.iter().map(|x| format!("{x:.1}")).collect();
             format!("{word} {} {}", robot.unwrap_or_default(), numbers.join(" "))
-        })
+        },
+    )
 }
 
 proptest! {
@@ -57,24 +53,11 @@ proptest! {
 fn paths_that_are_none_are_errors() {
     let plan = FloorPlan::plan_a();
     let send = |path: &[Point2<f64>], world_from_map| {
-        map_along_path(
-            &plan,
-            path,
-            &[],
-            world_from_map,
-            Robot::Target,
-            &PairParams::default(),
-        )
+        map_along_path(&plan, path, &[], world_from_map, Robot::Target, &PairParams::default())
     };
     assert!(send(&[], Se2::identity()).is_err());
     assert!(send(&[Point2::new(f64::NAN, 1.0)], Se2::identity()).is_err());
     assert!(send(&[Point2::new(f64::INFINITY, 1.0)], Se2::identity()).is_err());
     assert!(send(&[Point2::new(1e12, 1.0)], Se2::new(0.0, 0.0, f64::NAN)).is_err());
-    assert!(
-        send(
-            &[Point2::new(2.0, 3.0), Point2::new(1e12, 1.0)],
-            Se2::identity()
-        )
-        .is_err()
-    );
+    assert!(send(&[Point2::new(2.0, 3.0), Point2::new(1e12, 1.0)], Se2::identity()).is_err());
 }

@@ -11,15 +11,8 @@ use ogm_sim::{
 fn quick(seed: u64) -> PairParams {
     PairParams {
         seed,
-        lidar: LidarParams {
-            beams: 361,
-            scan_every: 0.48,
-            ..LidarParams::rf()
-        },
-        mapping: MappingParams {
-            resolution: 0.04,
-            ..MappingParams::default()
-        },
+        lidar: LidarParams { beams: 361, scan_every: 0.48, ..LidarParams::rf() },
+        mapping: MappingParams { resolution: 0.04, ..MappingParams::default() },
         ..PairParams::default()
     }
 }
@@ -39,9 +32,7 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 /// Median distance of occupied cells to the faces of the plan they are a map of, metres.
 fn median_off_the_walls(plan: &FloorPlan, map: &OccupancyGrid, world_from_map: Se2) -> f64 {
-    let distances = walls(map)
-        .into_iter()
-        .map(|p| plan.distance_to_face(world_from_map * p));
+    let distances = walls(map).into_iter().map(|p| plan.distance_to_face(world_from_map * p));
     median(distances.collect())
 }
 
@@ -71,12 +62,7 @@ fn common_walls_of_both_maps_coincide_under_the_truth() {
         .step_by(5)
         .map(|p| pair.target_from_source * p)
         .filter(seen)
-        .map(|p| {
-            target
-                .iter()
-                .map(|q| (p - q).norm())
-                .fold(f64::INFINITY, f64::min)
-        })
+        .map(|p| target.iter().map(|q| (p - q).norm()).fold(f64::INFINITY, f64::min))
         .collect();
     assert!(distances.len() > 100, "{} common cells", distances.len());
     let median = median(distances);
@@ -123,11 +109,8 @@ fn two_robots_share_about_three_fifths_of_what_they_see() {
         assert!((0.55..0.70).contains(&overlap), "plan {name}: {overlap}");
     }
     let pair = quick_pair(1);
-    let twins = SimulatedPair {
-        source: pair.target.clone(),
-        target_from_source: Se2::identity(),
-        ..pair
-    };
+    let twins =
+        SimulatedPair { source: pair.target.clone(), target_from_source: Se2::identity(), ..pair };
     assert_eq!(twins.overlap(), Ok(1.0));
 }
 
@@ -139,10 +122,7 @@ fn robots_keep_clear_of_everything_in_the_plan() {
             assert!(path.len() > 1000);
             for point in path {
                 let distance = plan.distance_to_face(point);
-                assert!(
-                    distance >= 0.199 && !plan.is_solid(point),
-                    "{distance} m at {point}"
-                );
+                assert!(distance >= 0.199 && !plan.is_solid(point), "{distance} m at {point}");
             }
         }
     }
@@ -158,22 +138,12 @@ fn plan_a_surveyed_has_the_size_and_cells_of_the_reference_building() {
 
     let thresholds = ClassThresholds::default();
     let cells = run.map.cells().cells().iter();
-    let occupied = cells
-        .clone()
-        .filter(|&&cell| thresholds.is_occupied(cell))
-        .count();
+    let occupied = cells.clone().filter(|&&cell| thresholds.is_occupied(cell)).count();
     let free = cells.filter(|&&cell| thresholds.is_free(cell)).count();
-    assert!(
-        occupied.abs_diff(16_000) < 2_400,
-        "{occupied} occupied cells"
-    );
+    assert!(occupied.abs_diff(16_000) < 2_400, "{occupied} occupied cells");
     assert!(free.abs_diff(329_000) < 49_350, "{free} free cells");
 
-    let known = run
-        .map
-        .cells()
-        .indexed()
-        .filter(|(_, cell)| cell.is_known());
+    let known = run.map.cells().indexed().filter(|(_, cell)| cell.is_known());
     let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
     for (cell, _) in known {
         for (axis, at) in [cell.column, cell.row].into_iter().enumerate() {
@@ -183,10 +153,7 @@ fn plan_a_surveyed_has_the_size_and_cells_of_the_reference_building() {
     }
     for (axis, expected) in [664_usize, 564].into_iter().enumerate() {
         let extent = high[axis] - low[axis] + 1;
-        assert!(
-            extent.abs_diff(expected) <= 4,
-            "{extent} cells along axis {axis}"
-        );
+        assert!(extent.abs_diff(expected) <= 4, "{extent} cells along axis {axis}");
     }
 }
 
@@ -210,18 +177,10 @@ fn a_turned_survey_shows_the_same_building() {
 fn coverage_is_what_the_map_knows_and_the_robot_was_there() {
     let run = quick_pair(5).source;
     let cells = run.map.cells().cells().iter().zip(run.coverage.cells());
-    assert!(
-        cells
-            .into_iter()
-            .all(|(cell, &covered)| cell.is_known() == covered)
-    );
+    assert!(cells.into_iter().all(|(cell, &covered)| cell.is_known() == covered));
     let thresholds = ClassThresholds::default();
     assert!(run.path.iter().all(|&p| thresholds.is_free(run.map.at(p))));
-    assert_eq!(
-        run.path[0],
-        Point2::origin(),
-        "a map frame lies at the start"
-    );
+    assert_eq!(run.path[0], Point2::origin(), "a map frame lies at the start");
 }
 
 #[test]
@@ -240,23 +199,11 @@ fn drift_moves_the_map_off_the_truth_and_its_absence_does_not() {
     let exact = run(DriftParams::default());
     assert!(end(&exact) < 1e-9);
     let odometry_share = 0.02;
-    let drifting = run(DriftParams {
-        odometry_share,
-        compass_sigma: 0.03,
-    });
+    let drifting = run(DriftParams { odometry_share, compass_sigma: 0.03 });
     // 0.02 m a metre and axis over 47 m: 0.14 m an axis.
-    assert!(
-        (0.01..0.6).contains(&end(&drifting)),
-        "{} m",
-        end(&drifting)
-    );
+    assert!((0.01..0.6).contains(&end(&drifting)), "{} m", end(&drifting));
     let off = |run: &RobotRun| median_off_the_walls(&plan, &run.map, run.world_from_map);
-    assert!(
-        off(&drifting) > 1.5 * off(&exact),
-        "{} and {}",
-        off(&drifting),
-        off(&exact)
-    );
+    assert!(off(&drifting) > 1.5 * off(&exact), "{} and {}", off(&drifting), off(&exact));
 }
 
 #[test]

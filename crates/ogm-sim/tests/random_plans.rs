@@ -10,10 +10,7 @@ fn random_plans_are_of_the_size_asked_for_and_can_be_explored() {
         let plan = FloorPlan::random(seed).unwrap();
         let size = plan.size();
         let (short, long) = (size.x.min(size.y), size.x.max(size.y));
-        assert!(
-            (10.0..14.0).contains(&short) && (12.0..17.0).contains(&long),
-            "{size}"
-        );
+        assert!((10.0..14.0).contains(&short) && (12.0..17.0).contains(&long), "{size}");
         for robot in [Robot::Target, Robot::Source] {
             let path = plan.path(robot, 0.03).unwrap();
             let length = 0.03 * path.len() as f64;
@@ -36,15 +33,8 @@ fn a_seed_is_a_plan() {
 #[test]
 fn pairs_in_random_plans_overlap_by_about_three_fifths() {
     let params = PairParams {
-        lidar: LidarParams {
-            beams: 541,
-            scan_every: 0.96,
-            ..LidarParams::rf()
-        },
-        mapping: MappingParams {
-            resolution: 0.08,
-            ..MappingParams::default()
-        },
+        lidar: LidarParams { beams: 541, scan_every: 0.96, ..LidarParams::rf() },
+        mapping: MappingParams { resolution: 0.08, ..MappingParams::default() },
         ..PairParams::default()
     };
     let overlaps: Vec<f64> = SEEDS
@@ -55,8 +45,5 @@ fn pairs_in_random_plans_overlap_by_about_three_fifths() {
         .collect();
     let mean = overlaps.iter().sum::<f64>() / overlaps.len() as f64;
     assert!((0.5..0.7).contains(&mean), "mean {mean} of {overlaps:?}");
-    assert!(
-        overlaps.iter().all(|overlap| (0.3..0.95).contains(overlap)),
-        "{overlaps:?}"
-    );
+    assert!(overlaps.iter().all(|overlap| (0.3..0.95).contains(overlap)), "{overlaps:?}");
 }

@@ -17,10 +17,7 @@ fn main() {
             support: 50,
         }
     });
-    for (name, params) in [
-        ("four-fold", Params::default()),
-        ("bisector", Params::paper()),
-    ] {
+    for (name, params) in [("four-fold", Params::default()), ("bisector", Params::paper())] {
         match ogm_vector(&segments, &params).into_result() {
             Ok(vector) => {
                 let [direction, theta] =

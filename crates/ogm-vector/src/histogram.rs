@@ -21,11 +21,7 @@ pub fn angle_histogram(segments: &[Segment], bins: usize) -> Vec<f64> {
     metres
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "share lies in [0, 1]"
-)]
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "share lies in [0, 1]")]
 fn bin_at(share: f64, bins: usize) -> usize {
     ((share * bins as f64) as usize).min(bins.saturating_sub(1))
 }

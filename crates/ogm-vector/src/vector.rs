@@ -46,11 +46,7 @@ impl OgmVector {
 /// Segments without a length, or with a number that is not finite, take no part. Refused when none
 /// is left, and when their directions cancel so that there is no mean.
 pub fn ogm_vector(segments: &[Segment], params: &Params) -> Outcome<OgmVector> {
-    estimate(segments, params)
-        .ok_or(Refusal::NoLines {
-            candidates: segments.len(),
-        })
-        .into()
+    estimate(segments, params).ok_or(Refusal::NoLines { candidates: segments.len() }).into()
 }
 
 /// The rotation that turns the walls of `source` onto those of `target`, modulo a quarter turn: in
@@ -80,17 +76,10 @@ fn estimate(segments: &[Segment], params: &Params) -> Option<OgmVector> {
         !group.members.is_empty() && total <= 0.0
     });
     let weigh = |segment: usize| {
-        if weights_fell_back {
-            segments[segment].length()
-        } else {
-            weigh(segment)
-        }
+        if weights_fell_back { segments[segment].length() } else { weigh(segment) }
     };
     for group in &mut groups {
-        let weighted = group
-            .members
-            .iter()
-            .map(|m| (m.direction, weigh(m.segment)));
+        let weighted = group.members.iter().map(|m| (m.direction, weigh(m.segment)));
         group.direction = weighted_mean(weighted);
     }
 

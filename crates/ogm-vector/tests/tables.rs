@@ -16,10 +16,7 @@ fn wall(degrees: f64, length: f64, reliability: f64) -> Segment {
     let direction = degrees.to_radians();
     Segment {
         start: Point2::new(1.0, -2.0),
-        end: Point2::new(
-            1.0 + length * direction.cos(),
-            -2.0 + length * direction.sin(),
-        ),
+        end: Point2::new(1.0 + length * direction.cos(), -2.0 + length * direction.sin()),
         direction,
         reliability,
         support: 50,
@@ -35,17 +32,11 @@ fn found(segments: &[Segment], params: &Params) -> OgmVector {
 }
 
 fn bisecting() -> Params {
-    Params {
-        estimator: Estimator::Bisector,
-        ..Params::default()
-    }
+    Params { estimator: Estimator::Bisector, ..Params::default() }
 }
 
 fn as_printed() -> Params {
-    Params {
-        weights: Weights::AsPrinted,
-        ..Params::paper()
-    }
+    Params { weights: Weights::AsPrinted, ..Params::paper() }
 }
 
 fn group_degrees(vector: &OgmVector, group: usize) -> f64 {
@@ -55,10 +46,7 @@ fn group_degrees(vector: &OgmVector, group: usize) -> f64 {
 #[test]
 fn t_v1_table_1_becomes_table_2() {
     let table_2 = [2.0, 90.0, -1.0, 91.0, -1.0, 79.0];
-    let printed = Params {
-        grouping: GroupRule::AsPrinted,
-        ..Params::paper()
-    };
+    let printed = Params { grouping: GroupRule::AsPrinted, ..Params::paper() };
     for params in [Params::default(), Params::paper(), printed] {
         let vector = found(&walls(&TABLE_1), &params);
         for (group, members) in [[0, 2, 4], [1, 3, 5]].into_iter().enumerate() {
@@ -66,10 +54,7 @@ fn t_v1_table_1_becomes_table_2() {
             assert!(grouped.iter().map(|member| member.segment).eq(members));
             for member in grouped {
                 let degrees = member.direction.to_degrees();
-                assert!(
-                    (degrees - table_2[member.segment]).abs() < 1e-12,
-                    "{member:?}"
-                );
+                assert!((degrees - table_2[member.segment]).abs() < 1e-12, "{member:?}");
             }
         }
     }
@@ -91,15 +76,10 @@ fn t_v2_means_of_table_2() {
 #[test]
 fn t_v3_the_printed_weights_prefer_the_worst_walls() {
     let two = [wall(0.0, 200.0, 0.98), wall(10.0, 40.0, 0.62)];
-    let three = [
-        wall(2.0, 100.0, 0.99),
-        wall(-1.0, 100.0, 0.98),
-        wall(-1.0, 30.0, 0.61),
-    ];
-    for (segments, corrected, printed) in [
-        (&two[..], 1.12319, 7.91667),
-        (&three[..], 0.379_471, -0.795_918),
-    ] {
+    let three = [wall(2.0, 100.0, 0.99), wall(-1.0, 100.0, 0.98), wall(-1.0, 30.0, 0.61)];
+    for (segments, corrected, printed) in
+        [(&two[..], 1.12319, 7.91667), (&three[..], 0.379_471, -0.795_918)]
+    {
         let vector = found(segments, &Params::paper());
         assert!((group_degrees(&vector, 0) - corrected).abs() < 5e-6);
         assert!((vector.direction.to_degrees() - corrected).abs() < 5e-6);
@@ -110,11 +90,7 @@ fn t_v3_the_printed_weights_prefer_the_worst_walls() {
 
 #[test]
 fn t_v3_perfect_walls_fall_back_to_their_length() {
-    let perfect = [
-        wall(0.0, 30.0, 1.0),
-        wall(4.0, 10.0, 1.0),
-        wall(90.0, 5.0, 1.0),
-    ];
+    let perfect = [wall(0.0, 30.0, 1.0), wall(4.0, 10.0, 1.0), wall(90.0, 5.0, 1.0)];
     let vector = found(&perfect, &as_printed());
     assert!(vector.weights_fell_back);
     assert!((group_degrees(&vector, 0) - 1.0).abs() < 1e-12);
@@ -124,14 +100,10 @@ fn t_v3_perfect_walls_fall_back_to_their_length() {
 
 #[test]
 fn t_v6_grouping_wraps_where_the_printed_rule_does_not() {
-    let printed = Params {
-        grouping: GroupRule::AsPrinted,
-        ..Params::default()
-    };
-    for (first, second, group, direction, printed_direction) in [
-        (100.0, -170.0, 1, 190.0, 10.0),
-        (170.0, -175.0, 0, 185.0, 5.0),
-    ] {
+    let printed = Params { grouping: GroupRule::AsPrinted, ..Params::default() };
+    for (first, second, group, direction, printed_direction) in
+        [(100.0, -170.0, 1, 190.0, 10.0), (170.0, -175.0, 0, 185.0, 5.0)]
+    {
         let segments = walls(&[first, second]);
         let grouped = |group: usize, params: &Params| {
             let vector = found(&segments, params);
@@ -156,11 +128,7 @@ fn rectangular() -> impl Strategy<Value = Vec<Segment>> {
         let walls = walls.into_iter();
         walls
             .map(|(off, turns, length, reliability)| {
-                wall(
-                    rotation + off + 90.0 * f64::from(turns),
-                    length,
-                    reliability,
-                )
+                wall(rotation + off + 90.0 * f64::from(turns), length, reliability)
             })
             .collect()
     })
@@ -204,18 +172,10 @@ fn walls_that_say_nothing_are_refused_or_left_out() {
     let point = wall(30.0, 0.0, 0.9);
     let cancelling = walls(&[0.0, 45.0]);
     for segments in [&[][..], &[not_finite, point][..], &cancelling] {
-        let expected = Refusal::NoLines {
-            candidates: segments.len(),
-        };
-        assert_eq!(
-            ogm_vector(segments, &Params::default()),
-            Outcome::Refused(expected)
-        );
+        let expected = Refusal::NoLines { candidates: segments.len() };
+        assert_eq!(ogm_vector(segments, &Params::default()), Outcome::Refused(expected));
     }
-    let vector = found(
-        &[point, not_finite, wall(7.0, 2.0, 0.9)],
-        &Params::default(),
-    );
+    let vector = found(&[point, not_finite, wall(7.0, 2.0, 0.9)], &Params::default());
     assert!((vector.direction.to_degrees() - 7.0).abs() < 1e-12);
     assert_eq!(vector.groups[0].members[0].segment, 2);
 }
@@ -229,12 +189,8 @@ fn a_building_without_right_angles_is_weak() {
 
 #[test]
 fn the_histogram_holds_every_metre_in_its_direction() {
-    let segments = [
-        wall(-90.0, 2.0, 0.9),
-        wall(89.0, 3.0, 0.9),
-        wall(90.0, 4.0, 0.9),
-        wall(1.0, 5.0, 0.9),
-    ];
+    let segments =
+        [wall(-90.0, 2.0, 0.9), wall(89.0, 3.0, 0.9), wall(90.0, 4.0, 0.9), wall(1.0, 5.0, 0.9)];
     let metres = angle_histogram(&segments, 4);
     for (bin, expected) in [6.0, 0.0, 5.0, 3.0].into_iter().enumerate() {
         assert!((metres[bin] - expected).abs() < 1e-12, "{metres:?}");

@@ -18,11 +18,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let log: Vec<TagReading> = (0..100)
             .map(|step| {
                 let s = 0.03 * f64::from(step);
-                let robot_position = if name == "curve" {
-                    curve(s)
-                } else {
-                    straight(s)
-                };
+                let robot_position = if name == "curve" { curve(s) } else { straight(s) };
                 TagReading {
                     tag_id: 7,
                     robot_position,

@@ -106,10 +106,7 @@ impl TagFilter {
         self.readings += 1;
         if self.readings.is_multiple_of(LEVEL_EVERY) {
             let least = self.least_cost();
-            self.costs
-                .cells_mut()
-                .iter_mut()
-                .for_each(|cost| *cost -= least);
+            self.costs.cells_mut().iter_mut().for_each(|cost| *cost -= least);
         }
         Ok(())
     }
@@ -132,17 +129,10 @@ impl TagFilter {
         let least = self.least_cost();
         let mut posterior = self.costs.map(|cost| {
             let excess = cost - least;
-            if excess < NEGLIGIBLE_COST {
-                f64::from(-excess).exp()
-            } else {
-                0.0
-            }
+            if excess < NEGLIGIBLE_COST { f64::from(-excess).exp() } else { 0.0 }
         });
         let sum: f64 = posterior.cells().iter().sum();
-        posterior
-            .cells_mut()
-            .iter_mut()
-            .for_each(|cell| *cell /= sum);
+        posterior.cells_mut().iter_mut().for_each(|cell| *cell /= sum);
         posterior
     }
 
@@ -171,18 +161,12 @@ impl TagFilter {
     }
 
     fn least_cost(&self) -> f32 {
-        self.costs
-            .cells()
-            .iter()
-            .copied()
-            .fold(f32::INFINITY, f32::min)
+        self.costs.cells().iter().copied().fold(f32::INFINITY, f32::min)
     }
 
     fn is_near_border(&self, cell: CellIndex) -> bool {
         let side = self.params.side_cells;
-        [cell.column, cell.row]
-            .iter()
-            .any(|&at| at < 2 || at + 2 >= side)
+        [cell.column, cell.row].iter().any(|&at| at < 2 || at + 2 >= side)
     }
 }
 
@@ -196,14 +180,7 @@ pub(crate) fn check_position(position: Point2<f64>) -> Result<(), TagError> {
 }
 
 fn check_params(params: &FilterParams) -> Result<(), TagError> {
-    let &FilterParams {
-        cell_size,
-        side_cells,
-        range_sigma,
-        max_range,
-        sub_sampling,
-        ..
-    } = params;
+    let &FilterParams { cell_size, side_cells, range_sigma, max_range, sub_sampling, .. } = params;
     let lengths = (1e-3..=MAX_COORDINATE).contains(&cell_size)
         && (0.01 * cell_size..=MAX_COORDINATE).contains(&range_sigma)
         && max_range > 0.0
@@ -211,13 +188,7 @@ fn check_params(params: &FilterParams) -> Result<(), TagError> {
     if lengths && (1..=side_cells).contains(&sub_sampling) {
         Ok(())
     } else {
-        Err(TagError::InvalidParams {
-            cell_size,
-            side_cells,
-            range_sigma,
-            max_range,
-            sub_sampling,
-        })
+        Err(TagError::InvalidParams { cell_size, side_cells, range_sigma, max_range, sub_sampling })
     }
 }
 

@@ -28,10 +28,7 @@ pub(crate) fn pairs_at<const N: usize>(places: [([f64; 2], [f64; 2]); N]) -> [Ta
         .map(|(target, source)| {
             certainty -= 0.01;
             id += 1;
-            let at = |[x, y]: [f64; 2]| TagEstimate {
-                certainty,
-                ..estimate(id, x, y)
-            };
+            let at = |[x, y]: [f64; 2]| TagEstimate { certainty, ..estimate(id, x, y) };
             (at(target), at(source))
         })
         .unzip();

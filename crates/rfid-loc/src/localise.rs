@@ -48,11 +48,7 @@ mod tests {
             .map(|step| {
                 let angle = 0.1 * f64::from(step);
                 let robot_position = Point2::new(1.5 * angle.cos(), 1.5 * angle.sin());
-                TagReading {
-                    tag_id,
-                    robot_position,
-                    range: (tag - robot_position).norm(),
-                }
+                TagReading { tag_id, robot_position, range: (tag - robot_position).norm() }
             })
             .collect()
     }
@@ -61,21 +57,15 @@ mod tests {
     fn tags_come_out_sorted_and_independent_of_how_their_logs_interleave() {
         let tags = [(9, Point2::new(0.7, 0.4)), (2, Point2::new(-1.1, 0.9))];
         let logs = tags.map(|(id, position)| log(id, position));
-        let interleaved: Vec<_> = logs[0]
-            .iter()
-            .zip(&logs[1])
-            .flat_map(|(&a, &b)| [a, b])
-            .collect();
+        let interleaved: Vec<_> =
+            logs[0].iter().zip(&logs[1]).flat_map(|(&a, &b)| [a, b]).collect();
         let params = FilterParams::default();
         let estimates = localise(&interleaved, &params).unwrap();
         assert_eq!(estimates, localise(&logs.concat(), &params).unwrap());
         for (estimate, (id, position)) in estimates.iter().zip([tags[1], tags[0]]) {
             assert_eq!((estimate.tag_id, estimate.readings), (id, 30));
             let error = (estimate.position - position).norm();
-            assert!(
-                error < 0.01,
-                "tag {id} is {error} m off, more than half a cell"
-            );
+            assert!(error < 0.01, "tag {id} is {error} m off, more than half a cell");
         }
     }
 

@@ -41,11 +41,7 @@ impl FilterParams {
     /// Certainty from disjoint blocks and position from the most probable cell, as printed.
     #[must_use]
     pub fn paper() -> Self {
-        Self {
-            window: CertaintyWindow::Disjoint,
-            position: PositionRule::Mode,
-            ..Self::default()
-        }
+        Self { window: CertaintyWindow::Disjoint, position: PositionRule::Mode, ..Self::default() }
     }
 }
 
@@ -86,11 +82,7 @@ pub struct SelectionParams {
 
 impl Default for SelectionParams {
     fn default() -> Self {
-        Self {
-            best_above: 0.90,
-            third_above: 0.75,
-            min_separation: 0.5,
-        }
+        Self { best_above: 0.90, third_above: 0.75, min_separation: 0.5 }
     }
 }
 
@@ -109,11 +101,7 @@ pub struct RotationParams {
 
 impl Default for RotationParams {
     fn default() -> Self {
-        Self {
-            min_arm: 0.5,
-            distance_tolerance: 0.1,
-            distance_tolerance_share: 0.05,
-        }
+        Self { min_arm: 0.5, distance_tolerance: 0.1, distance_tolerance_share: 0.05 }
     }
 }
 

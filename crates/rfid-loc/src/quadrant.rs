@@ -58,12 +58,7 @@ pub fn quadrant(tag_rotation: f64, wall_rotation: f64) -> Result<Quadrant, TagEr
         size if size <= AMBIGUOUS_ABOVE => QuadrantConfidence::Warning,
         _ => QuadrantConfidence::Ambiguous,
     };
-    Ok(Quadrant {
-        kappa,
-        theta,
-        residual,
-        confidence,
-    })
+    Ok(Quadrant { kappa, theta, residual, confidence })
 }
 
 pub(crate) fn check_angle(theta: f64) -> Result<(), TagError> {
@@ -153,10 +148,7 @@ mod tests {
         }
         assert_eq!(wrong, 0, "noise below 45° never turns a map");
         let share = f64::from(undefined) / f64::from(runs);
-        assert!(
-            (share - 0.40).abs() < 0.02,
-            "printed cases cover too little: {share}"
-        );
+        assert!((share - 0.40).abs() < 0.02, "printed cases cover too little: {share}");
     }
 
     #[test]

@@ -53,16 +53,9 @@ pub(crate) fn rotation_towards(
         let angle = direction(target_arm) - direction(source_arm);
         (wrap_angle(angle), RotationRule::Midpoint)
     } else {
-        (
-            least_squares_rotation(tags, params)?,
-            RotationRule::LeastSquares,
-        )
+        (least_squares_rotation(tags, params)?, RotationRule::LeastSquares)
     };
-    Ok(TagRotation {
-        angle,
-        rule,
-        mismatch: distances_differ(tags, params),
-    })
+    Ok(TagRotation { angle, rule, mismatch: distances_differ(tags, params) })
 }
 
 /// The midpoints of the two best tags in target and source (Eq. 5).
@@ -101,10 +94,7 @@ pub(crate) fn least_squares_rotation(
     }
     let spread = target_spread.min(source_spread);
     if !(spread >= params.min_arm && spread > 0.0) {
-        return Err(Refusal::TagsCoincide {
-            spread_m: spread,
-            need_m: params.min_arm,
-        });
+        return Err(Refusal::TagsCoincide { spread_m: spread, need_m: params.min_arm });
     }
     let agreement = cross.hypot(dot) / (target_sq * source_sq).sqrt();
     if agreement < LEAST_AGREEMENT {
@@ -139,11 +129,7 @@ mod tests {
 
     /// The defaults in pixels of 0.02 m.
     fn pixels() -> RotationParams {
-        RotationParams {
-            min_arm: 25.0,
-            distance_tolerance: 5.0,
-            ..RotationParams::default()
-        }
+        RotationParams { min_arm: 25.0, distance_tolerance: 5.0, ..RotationParams::default() }
     }
 
     #[test]
@@ -171,9 +157,7 @@ mod tests {
         for degrees in [-179.0_f64, -100.0, 170.0, 179.9] {
             let target_from_source = Se2::new(1.0, 2.0, degrees.to_radians());
             let tags = moved_pairs(target_from_source, [[0.0, 0.0], [1.0, 0.0], [0.0, 2.0]]);
-            let rotation = tag_rotation(&tags, &RotationParams::default())
-                .found()
-                .unwrap();
+            let rotation = tag_rotation(&tags, &RotationParams::default()).found().unwrap();
             assert!((rotation.angle.to_degrees() - degrees).abs() < 1e-9);
         }
     }
@@ -183,9 +167,7 @@ mod tests {
         let target_from_source = Se2::new(3.0, -1.0, 2.0);
         let in_line = [[0.0, 0.0], [1.0, 0.5], [2.0, 1.0]];
         let tags = moved_pairs(target_from_source, in_line);
-        let rotation = tag_rotation(&tags, &RotationParams::default())
-            .found()
-            .unwrap();
+        let rotation = tag_rotation(&tags, &RotationParams::default()).found().unwrap();
         assert!((rotation.angle - 2.0).abs() < 1e-12);
         assert_eq!(rotation.rule, RotationRule::Midpoint);
     }
@@ -194,9 +176,7 @@ mod tests {
     fn a_third_tag_on_the_midpoint_falls_back_to_least_squares() {
         let target_from_source = Se2::new(3.0, -1.0, -2.5);
         let tags = moved_pairs(target_from_source, [[0.0, 0.0], [2.0, 1.0], [1.0, 0.5]]);
-        let rotation = tag_rotation(&tags, &RotationParams::default())
-            .found()
-            .unwrap();
+        let rotation = tag_rotation(&tags, &RotationParams::default()).found().unwrap();
         assert!((rotation.angle + 2.5).abs() < 1e-12);
         assert_eq!(rotation.rule, RotationRule::LeastSquares);
     }
@@ -210,10 +190,7 @@ mod tests {
         };
         assert!(spread_m < need_m && need_m == 0.5);
 
-        let no_minimum = RotationParams {
-            min_arm: 0.0,
-            ..RotationParams::default()
-        };
+        let no_minimum = RotationParams { min_arm: 0.0, ..RotationParams::default() };
         let same = moved_pairs(Se2::identity(), [[1.0, 1.0]; 3]);
         assert!(tag_rotation(&same, &no_minimum).refusal().is_some());
     }
@@ -226,9 +203,7 @@ mod tests {
                 ([1.0, 0.0], [1.0, 0.0]),
                 ([0.0, 1.0 + offset], [0.0, 1.0]),
             ]);
-            let rotation = tag_rotation(&tags, &RotationParams::default())
-                .found()
-                .unwrap();
+            let rotation = tag_rotation(&tags, &RotationParams::default()).found().unwrap();
             assert_eq!(rotation.mismatch, mismatch, "{offset}");
         }
         // Far apart, the share of the distance counts.
@@ -237,11 +212,6 @@ mod tests {
             ([9.0, 0.0], [9.0, 0.0]),
             ([0.0, 10.4], [0.0, 10.0]),
         ]);
-        assert!(
-            !tag_rotation(&tags, &RotationParams::default())
-                .found()
-                .unwrap()
-                .mismatch
-        );
+        assert!(!tag_rotation(&tags, &RotationParams::default()).found().unwrap().mismatch);
     }
 }

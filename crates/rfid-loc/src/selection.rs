@@ -107,20 +107,10 @@ pub(crate) fn positions(pair: &TagPair) -> (Point2<f64>, Point2<f64>) {
 fn by_id(estimates: &[TagEstimate]) -> Result<BTreeMap<u32, &TagEstimate>, TagError> {
     let mut by_id = BTreeMap::new();
     for estimate in estimates {
-        let &TagEstimate {
-            tag_id,
-            position,
-            certainty,
-            ..
-        } = estimate;
+        let &TagEstimate { tag_id, position, certainty, .. } = estimate;
         let is_near = |x: f64| x.abs() <= MAX_COORDINATE;
         if !(is_near(position.x) && is_near(position.y) && (0.0..=1.0).contains(&certainty)) {
-            return Err(TagError::Estimate {
-                tag_id,
-                x: position.x,
-                y: position.y,
-                certainty,
-            });
+            return Err(TagError::Estimate { tag_id, x: position.x, y: position.y, certainty });
         }
         if by_id.insert(tag_id, estimate).is_some() {
             return Err(TagError::DuplicateTag { tag_id });
@@ -159,18 +149,13 @@ mod tests {
     #[test]
     fn t_q1_table_3_orders_the_tags_by_their_lesser_certainty() {
         let selected = select(&[(5, 82), (7, 99), (9, 91)], &[(5, 92), (7, 76), (9, 92)]);
-        assert_eq!(
-            selected,
-            Outcome::Found(vec![(9, 0.91), (5, 0.82), (7, 0.76)])
-        );
+        assert_eq!(selected, Outcome::Found(vec![(9, 0.91), (5, 0.82), (7, 0.76)]));
     }
 
     #[test]
     fn of_equal_certainty_the_smaller_id_comes_first_whatever_the_order() {
-        let selected = select(
-            &[(8, 95), (3, 95), (6, 95), (1, 95)],
-            &[(6, 97), (8, 97), (1, 97), (3, 97)],
-        );
+        let selected =
+            select(&[(8, 95), (3, 95), (6, 95), (1, 95)], &[(6, 97), (8, 97), (1, 97), (3, 97)]);
         let ids: Vec<u32> = selected.found().unwrap().iter().map(|tag| tag.0).collect();
         assert_eq!(ids, [1, 3, 6]);
     }
@@ -178,10 +163,9 @@ mod tests {
     #[test]
     fn both_thresholds_are_strict_and_each_refusal_names_its_own() {
         let all = [(1, 99), (2, 99), (3, 99)];
-        for (tags, best, need) in [
-            ([(1, 95), (2, 90), (3, 75)], 0.75, 0.75),
-            ([(1, 90), (2, 85), (3, 80)], 0.90, 0.90),
-        ] {
+        for (tags, best, need) in
+            [([(1, 95), (2, 90), (3, 75)], 0.75, 0.75), ([(1, 90), (2, 85), (3, 80)], 0.90, 0.90)]
+        {
             let refusal = select(&tags, &all).refusal().cloned();
             assert_eq!(refusal, Some(Refusal::LowCertainty { best, need }));
         }
@@ -217,14 +201,8 @@ mod tests {
     fn estimates_that_cannot_be_meant_are_errors() {
         let good = known(&[(1, 99)]);
         for bad in [
-            TagEstimate {
-                certainty: f64::NAN,
-                ..good[0]
-            },
-            TagEstimate {
-                certainty: 1.5,
-                ..good[0]
-            },
+            TagEstimate { certainty: f64::NAN, ..good[0] },
+            TagEstimate { certainty: 1.5, ..good[0] },
             estimate(1, f64::INFINITY, 0.0),
             estimate(1, 0.0, f64::NAN),
         ] {

@@ -42,10 +42,8 @@ pub fn tag_only_transform(
         Err(refusal) => return Ok(Outcome::Refused(refusal)),
     };
     // From here on in the coordinates of the frame, counted from its corners.
-    let (target_centroid, source_centroid) = (
-        target_centroid - corners.target,
-        source_centroid - corners.source,
-    );
+    let (target_centroid, source_centroid) =
+        (target_centroid - corners.target, source_centroid - corners.source);
     let centre = Point2::from(centre - corners.source);
     let turned = Se2::about(centre, theta, Vector2::zeros());
     let translation = match params.translation {
@@ -72,10 +70,7 @@ struct Corners {
 fn corners(frame: TagFrame) -> Result<Corners, TagError> {
     let (target, source) = match frame {
         TagFrame::StartPose => (Point2::origin(), Point2::origin()),
-        TagFrame::Cropped {
-            target_corner,
-            source_corner,
-        } => (target_corner, source_corner),
+        TagFrame::Cropped { target_corner, source_corner } => (target_corner, source_corner),
     };
     check_position(target)?;
     check_position(source)?;
@@ -107,10 +102,7 @@ fn printed_direction(
     let (rise, run) = (tag.y - middle.y, tag.x - middle.y);
     let lever = rise.hypot(run);
     if lever < NO_LEVER {
-        return Err(Refusal::TagsCoincide {
-            spread_m: lever,
-            need_m: NO_LEVER,
-        });
+        return Err(Refusal::TagsCoincide { spread_m: lever, need_m: NO_LEVER });
     }
     Ok(rise.atan2(run))
 }
@@ -138,22 +130,13 @@ mod tests {
     }
 
     fn degrees(rotation: TagOnlyRotation) -> f64 {
-        let params = TagOnlyParams {
-            rotation,
-            ..TagOnlyParams::default()
-        };
-        found(&moved_pairs(truth(), SOURCES), &params)
-            .theta()
-            .to_degrees()
+        let params = TagOnlyParams { rotation, ..TagOnlyParams::default() };
+        found(&moved_pairs(truth(), SOURCES), &params).theta().to_degrees()
     }
 
     /// What every point is displaced by, the rotation being right.
     fn displacement(translation: TagOnlyTranslation, centre: RotationCentre) -> Vector2<f64> {
-        let params = TagOnlyParams {
-            translation,
-            centre,
-            ..TagOnlyParams::default()
-        };
+        let params = TagOnlyParams { translation, centre, ..TagOnlyParams::default() };
         let target_from_source = found(&moved_pairs(truth(), SOURCES), &params);
         let [here, there] = [Point2::new(-7.0, 300.0), Point2::new(80.0, 2.0)]
             .map(|point| target_from_source * point - truth() * point);
@@ -170,16 +153,10 @@ mod tests {
         let corrected = displacement(TagOnlyTranslation::Corrected, Origin);
         assert!(corrected.norm() < 1e-9, "{corrected}");
         let sign_fixed = displacement(TagOnlyTranslation::SignFixed, Origin);
-        assert!(
-            (sign_fixed - Vector2::new(-125.5955, 62.6738)).norm() < 1e-4,
-            "{sign_fixed}"
-        );
+        assert!((sign_fixed - Vector2::new(-125.5955, 62.6738)).norm() < 1e-4, "{sign_fixed}");
         assert!((sign_fixed.norm_squared() - 19702.25).abs() < 0.01);
         let printed = displacement(TagOnlyTranslation::AsPrinted, Origin);
-        assert!(
-            (printed - Vector2::new(5.5955, 7.3262)).norm() < 1e-4,
-            "{printed}"
-        );
+        assert!((printed - Vector2::new(5.5955, 7.3262)).norm() < 1e-4, "{printed}");
         assert!((printed.norm_squared() - 84.98).abs() < 0.01);
     }
 
@@ -197,10 +174,7 @@ mod tests {
         let lever = Vector2::new(-40.0, 25.0);
         let offset = displacement(TagOnlyTranslation::SignFixed, At(centroid - lever));
         let expected = truth() * lever - lever;
-        assert!(
-            (offset - expected).norm() < 1e-9,
-            "{offset} is not {expected}"
-        );
+        assert!((offset - expected).norm() < 1e-9, "{offset} is not {expected}");
     }
 
     #[test]
@@ -211,10 +185,7 @@ mod tests {
             source_corner: Point2::new(-150.0, -310.0),
         };
         let moves = |params: TagOnlyParams| {
-            let in_crop = TagOnlyParams {
-                frame: cropped,
-                ..params
-            };
+            let in_crop = TagOnlyParams { frame: cropped, ..params };
             let probe = Point2::new(10.0, 20.0);
             (found(&tags, &params) * probe - found(&tags, &in_crop) * probe).norm()
         };
@@ -229,18 +200,9 @@ mod tests {
         };
         assert!(moves(about_a_place) < 1e-9);
         for literal in [
-            TagOnlyParams {
-                rotation: TagOnlyRotation::AsPrinted,
-                ..corrected
-            },
-            TagOnlyParams {
-                translation: TagOnlyTranslation::SignFixed,
-                ..corrected
-            },
-            TagOnlyParams {
-                translation: TagOnlyTranslation::AsPrinted,
-                ..corrected
-            },
+            TagOnlyParams { rotation: TagOnlyRotation::AsPrinted, ..corrected },
+            TagOnlyParams { translation: TagOnlyTranslation::SignFixed, ..corrected },
+            TagOnlyParams { translation: TagOnlyTranslation::AsPrinted, ..corrected },
         ] {
             assert!(moves(literal) > 10.0, "{literal:?}");
         }
@@ -250,31 +212,18 @@ mod tests {
     fn tags_without_a_lever_are_refused_and_a_corner_that_is_not_finite_is_an_error() {
         let same = moved_pairs(truth(), [[5.0, 5.0]; 3]);
         for rotation in [TagOnlyRotation::P3, TagOnlyRotation::P2] {
-            let params = TagOnlyParams {
-                rotation,
-                ..TagOnlyParams::default()
-            };
+            let params = TagOnlyParams { rotation, ..TagOnlyParams::default() };
             let outcome = tag_only_transform(&same, &params).unwrap();
-            assert!(matches!(
-                outcome.refusal(),
-                Some(Refusal::TagsCoincide { .. })
-            ));
+            assert!(matches!(outcome.refusal(), Some(Refusal::TagsCoincide { .. })));
         }
         // Where x₂ = y₂ = y_c the printed direction does not exist.
-        let printed = TagOnlyParams {
-            rotation: TagOnlyRotation::AsPrinted,
-            ..TagOnlyParams::default()
-        };
+        let printed =
+            TagOnlyParams { rotation: TagOnlyRotation::AsPrinted, ..TagOnlyParams::default() };
         let outcome = tag_only_transform(&same, &printed).unwrap();
-        assert!(matches!(
-            outcome.refusal(),
-            Some(Refusal::TagsCoincide { .. })
-        ));
+        assert!(matches!(outcome.refusal(), Some(Refusal::TagsCoincide { .. })));
 
-        let nowhere = TagOnlyParams {
-            centre: At(Point2::new(f64::NAN, 0.0)),
-            ..TagOnlyParams::default()
-        };
+        let nowhere =
+            TagOnlyParams { centre: At(Point2::new(f64::NAN, 0.0)), ..TagOnlyParams::default() };
         let error = tag_only_transform(&same, &nowhere).unwrap_err();
         assert!(matches!(error, TagError::Position { .. }));
     }

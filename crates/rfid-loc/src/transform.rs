@@ -74,10 +74,7 @@ mod tests {
         ]);
         let target_from_source = anchor_on_best_tag(93.4_f64.to_radians(), &tags).unwrap();
         let moved = target_from_source * Point2::new(200.0, 150.0);
-        assert!(
-            (moved - Point2::new(235.378702, 280.707740)).norm() < 1e-6,
-            "{moved}"
-        );
+        assert!((moved - Point2::new(235.378702, 280.707740)).norm() < 1e-6, "{moved}");
         let best = target_from_source * tags[0].source().position;
         assert!((best - tags[0].target().position).norm() < 1e-12);
     }
@@ -152,10 +149,7 @@ mod tests {
             pairs_at([[1.0, 0.0], [-0.5, height], [-0.5, -height]].map(|[x, y]| ([x, -y], [x, y])));
         let outcome = least_squares_transform(&tags, &RotationParams::default());
         let refusal = outcome.refusal();
-        assert!(
-            matches!(refusal, Some(Refusal::Ambiguous { .. })),
-            "{outcome:?}"
-        );
+        assert!(matches!(refusal, Some(Refusal::Ambiguous { .. })), "{outcome:?}");
     }
 
     #[test]

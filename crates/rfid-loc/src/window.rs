@@ -36,10 +36,7 @@ impl Peak {
         Self {
             mass: best.mass,
             centroid: centroid(posterior, best, side),
-            middle: CellIndex {
-                column: best.column + side / 2,
-                row: best.row + side / 2,
-            },
+            middle: CellIndex { column: best.column + side / 2, row: best.row + side / 2 },
             second_ratio: second.mass / best.mass,
         }
     }
@@ -72,19 +69,13 @@ fn window_masses(posterior: &Grid<f64>, side: usize, stride: usize) -> Vec<Windo
         (0..end).step_by(stride)
     };
     let sums_in_row = |cells: &[f64]| -> Vec<f64> {
-        starts(cells.len())
-            .map(|column| cells.iter().skip(column).take(side).sum())
-            .collect()
+        starts(cells.len()).map(|column| cells.iter().skip(column).take(side).sum()).collect()
     };
     let rows: Vec<Vec<f64>> = posterior.rows().map(sums_in_row).collect();
     let mut windows = Vec::new();
     for row in starts(posterior.height()) {
         let first = windows.len();
-        windows.extend(starts(posterior.width()).map(|column| Window {
-            column,
-            row,
-            mass: 0.0,
-        }));
+        windows.extend(starts(posterior.width()).map(|column| Window { column, row, mass: 0.0 }));
         for sums in rows.iter().skip(row).take(side) {
             for (window, sum) in windows[first..].iter_mut().zip(sums) {
                 window.mass += sum;
@@ -95,11 +86,7 @@ fn window_masses(posterior: &Grid<f64>, side: usize, stride: usize) -> Vec<Windo
 }
 
 fn largest(windows: &[Window], is_candidate: impl Fn(&Window) -> bool) -> Window {
-    let mut best = Window {
-        column: 0,
-        row: 0,
-        mass: 0.0,
-    };
+    let mut best = Window { column: 0, row: 0, mass: 0.0 };
     for window in windows {
         if window.mass > best.mass && is_candidate(window) {
             best = *window;
@@ -178,13 +165,7 @@ mod tests {
         let centroid = Peak::of(&posterior, 3, Sliding).centroid;
         assert!((centroid - mean).norm() < 0.05, "{centroid}");
         let mode = most_probable(&posterior);
-        assert_eq!(
-            mode,
-            CellIndex {
-                column: 12,
-                row: 17
-            }
-        );
+        assert_eq!(mode, CellIndex { column: 12, row: 17 });
     }
 
     #[test]

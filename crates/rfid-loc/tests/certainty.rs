@@ -25,9 +25,7 @@ fn outcomes<const N: usize>(path: fn(f64) -> Point2<f64>, counts: [u32; N]) -> [
             while step < count {
                 let robot = path(0.03 * f64::from(step));
                 let range = (tag - robot).norm() + noise.sample(&mut random);
-                filter
-                    .update(robot, range.clamp(0.0, 3.2))
-                    .expect("a usable reading");
+                filter.update(robot, range.clamp(0.0, 3.2)).expect("a usable reading");
                 step += 1;
             }
             let estimate = filter.estimate(tag_id).expect("readings");
@@ -56,10 +54,7 @@ fn still(_: f64) -> Point2<f64> {
 #[test]
 fn on_a_curve_certainty_grows_with_the_readings() {
     let [(at_30, _), (at_100, _), (at_300, error)] = outcomes(curve, [30, 100, 300]);
-    assert!(
-        at_30 + 0.05 < at_100 && at_100 < at_300,
-        "{at_30} {at_100} {at_300}"
-    );
+    assert!(at_30 + 0.05 < at_100 && at_100 < at_300, "{at_30} {at_100} {at_300}");
     assert!(at_100 > 0.75 && at_300 > 0.95, "{at_100} {at_300}");
     assert!(error < 0.02, "more than a cell: {error} m");
 }

@@ -38,17 +38,12 @@ fn reference(filter: &TagFilter, readings: &[(Point2<f64>, f64)]) -> Grid<f64> {
     let mut grid = filter.posterior();
     for position in 0..grid.cells().len() {
         let centre = filter.frame().cell_centre(grid.index_of(position));
-        let residuals = readings
-            .iter()
-            .map(|&(robot, range)| ((centre - robot).norm() - range) / SIGMA);
+        let residuals =
+            readings.iter().map(|&(robot, range)| ((centre - robot).norm() - range) / SIGMA);
         grid.cells_mut()[position] =
             -0.5 * residuals.map(|residual| residual * residual).sum::<f64>();
     }
-    let largest = grid
-        .cells()
-        .iter()
-        .copied()
-        .fold(f64::NEG_INFINITY, f64::max);
+    let largest = grid.cells().iter().copied().fold(f64::NEG_INFINITY, f64::max);
     let weights = grid.map(|cell| (cell - largest).exp());
     let sum: f64 = weights.cells().iter().sum();
     weights.map(|weight| weight / sum)
@@ -75,11 +70,7 @@ fn t_r1_four_corners_locate_a_tag_in_its_cell() {
         }
         let estimate = filter.estimate(1).unwrap();
         assert!((estimate.mode - tag).norm() < 1e-9, "{}", estimate.mode);
-        assert!(
-            (estimate.position - tag).norm() < 1e-3,
-            "{}",
-            estimate.position
-        );
+        assert!((estimate.position - tag).norm() < 1e-3, "{}", estimate.position);
         let error = (estimate.certainty - certainty).abs();
         assert!(error < 0.0005, "{repeats}: {}", estimate.certainty);
     }
@@ -87,11 +78,7 @@ fn t_r1_four_corners_locate_a_tag_in_its_cell() {
 
 #[test]
 fn t_r2_three_thousand_readings_underflow_the_product_and_not_the_filter() {
-    let params = FilterParams {
-        side_cells: 150,
-        cell_size: 0.04,
-        ..FilterParams::default()
-    };
+    let params = FilterParams { side_cells: 150, cell_size: 0.04, ..FilterParams::default() };
     let tag = Point2::new(0.5, -0.4);
     let readings = noisy_circle(3000, tag, 2);
     let filter = filtered(&readings, &params);
@@ -127,11 +114,7 @@ fn t_r3_a_straight_path_leaves_two_mirror_images() {
     let filter = filtered(&readings, &FilterParams::default());
     let estimate = filter.estimate(1).unwrap();
     assert!(estimate.certainty < 0.55, "{}", estimate.certainty);
-    assert!(
-        estimate.second_peak_ratio > 0.99,
-        "{}",
-        estimate.second_peak_ratio
-    );
+    assert!(estimate.second_peak_ratio > 0.99, "{}", estimate.second_peak_ratio);
     let mirrored = Point2::new(estimate.position.x, estimate.position.y.abs());
     assert!((mirrored - tag).norm() < 0.02, "{mirrored}");
 
@@ -143,10 +126,7 @@ fn t_r3_a_straight_path_leaves_two_mirror_images() {
 
 #[test]
 fn single_precision_sums_agree_with_double_ones() {
-    let params = FilterParams {
-        side_cells: 40,
-        ..FilterParams::default()
-    };
+    let params = FilterParams { side_cells: 40, ..FilterParams::default() };
     let tag = Point2::new(0.3, 0.2);
     for count in [300, 2000] {
         // Offsets of three sigma either way make the costs ten times larger.
@@ -202,23 +182,15 @@ fn the_mode_is_a_cell_centre_and_the_paper_reports_it() {
     let cells = filter.frame().cells_from_point(estimate.mode);
     assert!((cells - cells.map(|x| x.floor() + 0.5)).norm() < 1e-6);
 
-    let printed = filtered(&readings, &FilterParams::paper())
-        .estimate(1)
-        .unwrap();
+    let printed = filtered(&readings, &FilterParams::paper()).estimate(1).unwrap();
     assert_eq!(FilterParams::paper().position, PositionRule::Mode);
-    assert_eq!(
-        (printed.position, printed.mode),
-        (estimate.mode, estimate.mode)
-    );
+    assert_eq!((printed.position, printed.mode), (estimate.mode, estimate.mode));
     assert!(printed.certainty <= estimate.certainty);
 }
 
 #[test]
 fn a_tag_outside_the_search_area_touches_its_border() {
-    let params = FilterParams {
-        side_cells: 150,
-        ..FilterParams::default()
-    };
+    let params = FilterParams { side_cells: 150, ..FilterParams::default() };
     let lower_left = Point2::new(-1.5, -1.5);
     for (y, outside) in [(1.6, true), (1.45, false)] {
         let mut filter = TagFilter::new(lower_left, &params).unwrap();

@@ -30,21 +30,12 @@ fn tags(
     };
     let (mut target, mut source) = (Vec::new(), Vec::new());
     for (id, place) in (0..).zip(PLACES.map(Point2::from)) {
-        let misplaced = if id == 2 {
-            Vector2::new(0.02, 0.0)
-        } else {
-            Vector2::zeros()
-        };
-        target.push(estimate(
-            id,
-            target_from_source * place + misplaced + target_shift,
-        ));
+        let misplaced = if id == 2 { Vector2::new(0.02, 0.0) } else { Vector2::zeros() };
+        target.push(estimate(id, target_from_source * place + misplaced + target_shift));
         source.push(estimate(id, place + source_shift));
     }
     let pairs = common_tags(&target, &source).expect("usable estimates");
-    select_tags(&pairs, &SelectionParams::default())
-        .found()
-        .expect("certain tags")
+    select_tags(&pairs, &SelectionParams::default()).found().expect("certain tags")
 }
 
 fn tag_only(
@@ -52,31 +43,19 @@ fn tag_only(
     rotation: TagOnlyRotation,
     translation: TagOnlyTranslation,
 ) -> Se2 {
-    let params = TagOnlyParams {
-        rotation,
-        translation,
-        ..TagOnlyParams::default()
-    };
-    tag_only_transform(tags, &params)
-        .expect("finite input")
-        .found()
-        .expect("tags apart")
+    let params = TagOnlyParams { rotation, translation, ..TagOnlyParams::default() };
+    tag_only_transform(tags, &params).expect("finite input").found().expect("tags apart")
 }
 
 /// Every corrected way from tags to a transform; `walls` is the rotation modulo a quarter turn.
 fn corrected(tags: &[TagPair; 3], walls: f64) -> [Se2; 5] {
     let params = RotationParams::default();
-    let from_tags = tag_rotation(tags, &params)
-        .found()
-        .expect("tags apart")
-        .angle;
+    let from_tags = tag_rotation(tags, &params).found().expect("tags apart").angle;
     let theta = quadrant(from_tags, walls).expect("finite input").theta;
     [
         tag_only(tags, TagOnlyRotation::P3, TagOnlyTranslation::Corrected),
         tag_only(tags, TagOnlyRotation::P2, TagOnlyTranslation::Corrected),
-        least_squares_transform(tags, &params)
-            .found()
-            .expect("tags apart"),
+        least_squares_transform(tags, &params).found().expect("tags apart"),
         anchor_on_best_tag(theta, tags).expect("finite input"),
         anchor_on_all_tags(theta, tags).expect("finite input"),
     ]
@@ -125,16 +104,11 @@ proptest! {
 
 #[test]
 fn the_limits_of_the_quarters_are_recovered_too() {
-    for degrees in [
-        -180.0_f64, -135.0, -90.0, -45.0, 0.0, 45.0, 90.0, 135.0, 180.0,
-    ] {
+    for degrees in [-180.0_f64, -135.0, -90.0, -45.0, 0.0, 45.0, 90.0, 135.0, 180.0] {
         let theta = degrees.to_radians();
         let truth = Se2::new(3.0, -2.0, theta);
         for found in corrected(&tags(truth, Vector2::zeros(), Vector2::zeros()), theta) {
-            assert!(
-                wrap_angle(found.theta() - theta).abs() < 0.01,
-                "{degrees}: {found:?}"
-            );
+            assert!(wrap_angle(found.theta() - theta).abs() < 0.01, "{degrees}: {found:?}");
         }
     }
 }
@@ -149,9 +123,7 @@ fn swapping_the_maps_inverts_the_transform() {
     }
     let select = |target: &[TagEstimate], source: &[TagEstimate]| {
         let pairs = common_tags(target, source).unwrap();
-        select_tags(&pairs, &SelectionParams::default())
-            .found()
-            .unwrap()
+        select_tags(&pairs, &SelectionParams::default()).found().unwrap()
     };
     let there = corrected(&select(&target, &source), 2.2);
     let back = corrected(&select(&source, &target), -2.2);
@@ -170,21 +142,10 @@ fn shifting_an_origin_changes_every_misprint() {
         (TagOnlyRotation::AsPrinted, TagOnlyTranslation::Corrected),
         (TagOnlyRotation::AsPrinted, TagOnlyTranslation::AsPrinted),
     ] {
-        let plain = tag_only(
-            &tags(truth, Vector2::zeros(), Vector2::zeros()),
-            rotation,
-            translation,
-        );
-        let moved = tag_only(
-            &tags(truth, target_shift, source_shift),
-            rotation,
-            translation,
-        );
+        let plain =
+            tag_only(&tags(truth, Vector2::zeros(), Vector2::zeros()), rotation, translation);
+        let moved = tag_only(&tags(truth, target_shift, source_shift), rotation, translation);
         let back = shift(-target_shift) * moved * shift(source_shift);
-        assert!(
-            apart(plain, back) > 0.5,
-            "{rotation:?} {translation:?}: {}",
-            apart(plain, back)
-        );
+        assert!(apart(plain, back) > 0.5, "{rotation:?} {translation:?}: {}", apart(plain, back));
     }
 }

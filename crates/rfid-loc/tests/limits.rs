@@ -20,10 +20,7 @@ fn impossible_readings_are_errors_and_leave_the_filter_as_it_was() {
     }
     for robot in [Point2::new(f64::NAN, 0.0), Point2::new(0.0, f64::INFINITY)] {
         let error = filter.update(robot, 1.0).unwrap_err();
-        assert!(
-            matches!(error, TagError::Position { .. }),
-            "{robot}: {error}"
-        );
+        assert!(matches!(error, TagError::Position { .. }), "{robot}: {error}");
     }
     assert_eq!(filter.estimate(1), before);
     filter.update(here, 3.19).unwrap();
@@ -39,66 +36,24 @@ fn nothing_is_known_before_the_first_reading() {
 fn parameters_that_describe_no_filter_are_errors() {
     let good = FilterParams::default();
     for bad in [
-        FilterParams {
-            cell_size: 0.0,
-            ..good
-        },
-        FilterParams {
-            cell_size: f64::NAN,
-            ..good
-        },
-        FilterParams {
-            range_sigma: 0.0,
-            ..good
-        },
-        FilterParams {
-            range_sigma: f64::INFINITY,
-            ..good
-        },
-        FilterParams {
-            max_range: -1.0,
-            ..good
-        },
-        FilterParams {
-            max_range: f64::NAN,
-            ..good
-        },
-        FilterParams {
-            sub_sampling: 0,
-            ..good
-        },
-        FilterParams {
-            sub_sampling: 301,
-            ..good
-        },
-        FilterParams {
-            side_cells: 0,
-            ..good
-        },
+        FilterParams { cell_size: 0.0, ..good },
+        FilterParams { cell_size: f64::NAN, ..good },
+        FilterParams { range_sigma: 0.0, ..good },
+        FilterParams { range_sigma: f64::INFINITY, ..good },
+        FilterParams { max_range: -1.0, ..good },
+        FilterParams { max_range: f64::NAN, ..good },
+        FilterParams { sub_sampling: 0, ..good },
+        FilterParams { sub_sampling: 301, ..good },
+        FilterParams { side_cells: 0, ..good },
     ] {
-        for filter in [
-            TagFilter::new(corner(), &bad),
-            TagFilter::around(corner(), &bad),
-        ] {
-            assert!(
-                matches!(filter, Err(TagError::InvalidParams { .. })),
-                "{bad:?}"
-            );
+        for filter in [TagFilter::new(corner(), &bad), TagFilter::around(corner(), &bad)] {
+            assert!(matches!(filter, Err(TagError::InvalidParams { .. })), "{bad:?}");
         }
     }
-    let huge = FilterParams {
-        side_cells: 1_000_000,
-        ..good
-    };
-    assert!(matches!(
-        TagFilter::new(corner(), &huge),
-        Err(TagError::Grid(_))
-    ));
+    let huge = FilterParams { side_cells: 1_000_000, ..good };
+    assert!(matches!(TagFilter::new(corner(), &huge), Err(TagError::Grid(_))));
     let nowhere = Point2::new(f64::NAN, 0.0);
-    assert!(matches!(
-        TagFilter::around(nowhere, &good),
-        Err(TagError::Position { .. })
-    ));
+    assert!(matches!(TagFilter::around(nowhere, &good), Err(TagError::Position { .. })));
 }
 
 proptest! {

@@ -73,11 +73,7 @@ impl Args {
 
     /// Extractions of one map in X3.
     pub(crate) fn extractions(&self) -> u64 {
-        if self.quick && self.runs.is_none() {
-            20
-        } else {
-            5 * self.worlds()
-        }
+        if self.quick && self.runs.is_none() { 20 } else { 5 * self.worlds() }
     }
 
     /// Refuses what would mislead.

@@ -12,16 +12,9 @@ use crate::report::{Figure, Image};
 /// Draws one extraction with the paper's values, and the spread of all.
 pub(super) fn draw(map: &OccupancyGrid, runs: &[Run], seed: u64) -> anyhow::Result<Vec<Figure>> {
     let mut figures = Vec::new();
-    let params = line_ransac::Params {
-        seed,
-        ..line_ransac::Params::default()
-    };
+    let params = line_ransac::Params { seed, ..line_ransac::Params::default() };
     if let Some(extraction) = line_ransac::extract_segments(map, &params).found() {
-        let kept = extraction
-            .segments
-            .iter()
-            .map(|s| [s.start, s.end])
-            .collect();
+        let kept = extraction.segments.iter().map(|s| [s.start, s.end]).collect();
         for (name, what, lines) in [
             ("lines-detected", "as voted for", extraction.stages.detected),
             ("lines-broken", "broken at gaps", extraction.stages.broken),
@@ -29,11 +22,7 @@ pub(super) fn draw(map: &OccupancyGrid, runs: &[Run], seed: u64) -> anyhow::Resu
             ("lines-kept", "long and reliable", kept),
         ] {
             let title = format!("{} lines, {what}", lines.len());
-            let layer = Layer {
-                name: "lines".to_owned(),
-                lines,
-                ..Layer::default()
-            };
+            let layer = Layer { name: "lines".to_owned(), lines, ..Layer::default() };
             figures.push(Figure {
                 name: name.to_owned(),
                 caption: format!("Lines of plan A after a stage of the extraction: {what}."),
@@ -50,14 +39,8 @@ pub(super) fn draw(map: &OccupancyGrid, runs: &[Run], seed: u64) -> anyhow::Resu
             figures.push(vector_figure(map, &vector)?);
         }
     }
-    for (id, what) in [
-        ("X3a", "paper's values, printed weights"),
-        ("X3c", "defaults"),
-    ] {
-        let values: Vec<f64> = errors_deg(runs, id)
-            .iter()
-            .map(|error| error - 45.0)
-            .collect();
+    for (id, what) in [("X3a", "paper's values, printed weights"), ("X3c", "defaults")] {
+        let values: Vec<f64> = errors_deg(runs, id).iter().map(|error| error - 45.0).collect();
         figures.push(Figure {
             name: format!("angles-{}", id.to_lowercase()),
             caption: format!("{id}: angle of the OGM vector over all extractions, {what}."),
@@ -77,17 +60,10 @@ fn vector_figure(map: &OccupancyGrid, vector: &ogm_vector::OgmVector) -> anyhow:
     let centre = Point2::new(map.width() as f64 / 2.0, map.height() as f64 / 2.0);
     let centre = map.frame().point_from_cells(centre);
     let arrow = |angle: f64, length: f64| {
-        [
-            centre,
-            centre + Vector2::new(angle.cos(), angle.sin()) * length,
-        ]
+        [centre, centre + Vector2::new(angle.cos(), angle.sin()) * length]
     };
-    let walls = vector
-        .group_directions()
-        .iter()
-        .flatten()
-        .map(|&angle| arrow(angle, 3.0))
-        .collect();
+    let walls =
+        vector.group_directions().iter().flatten().map(|&angle| arrow(angle, 3.0)).collect();
     let bisector = vec![arrow(vector.theta_ogm(), 4.0)];
     let layer = |name: &str, lines| Layer {
         name: name.to_owned(),
@@ -101,10 +77,7 @@ fn vector_figure(map: &OccupancyGrid, vector: &ogm_vector::OgmVector) -> anyhow:
         image: Image::Svg(plan(&Plan {
             title: format!("OGM vector at {:.2}°", vector.theta_ogm().to_degrees()),
             background: Some(map),
-            layers: vec![
-                layer("wall directions", walls),
-                layer("OGM vector", bisector),
-            ],
+            layers: vec![layer("wall directions", walls), layer("OGM vector", bisector)],
         })?),
     })
 }

@@ -41,9 +41,7 @@ impl<'a> Overlap<'a> {
                 near.unwrap_or(false)
             })
             .collect();
-        let sum = walls
-            .iter()
-            .fold(Point2::origin(), |sum: Point2<f64>, p| sum + p.coords);
+        let sum = walls.iter().fold(Point2::origin(), |sum: Point2<f64>, p| sum + p.coords);
         Self {
             target,
             nearest_wall: NearestCells::new(&target.occupied_mask(&thresholds)),
@@ -61,28 +59,17 @@ impl<'a> Overlap<'a> {
             nn += self.distance_sq_to_wall(estimated);
         }
         let scale = 1.0 / (self.walls.len() as f64 * PIXEL * PIXEL);
-        let (translation_m, rotation) = pose_error(
-            target_from_source,
-            &self.true_target_from_source,
-            self.centroid,
-        );
-        TransformError {
-            mse_disp: disp * scale,
-            mse_nn: nn * scale,
-            translation_m,
-            rotation,
-        }
+        let (translation_m, rotation) =
+            pose_error(target_from_source, &self.true_target_from_source, self.centroid);
+        TransformError { mse_disp: disp * scale, mse_nn: nn * scale, translation_m, rotation }
     }
 
     /// Squared distance to the target wall nearest to the cell of `point`; outside the grid, to
     /// the wall nearest to the closest border cell, which bounds it from above.
     fn distance_sq_to_wall(&self, point: Point2<f64>) -> f64 {
         let [column, row] = self.target.frame().lattice_cell(point);
-        let clamp = |at: i64, size: usize| {
-            usize::try_from(at.max(0))
-                .unwrap_or(usize::MAX)
-                .min(size - 1)
-        };
+        let clamp =
+            |at: i64, size: usize| usize::try_from(at.max(0)).unwrap_or(usize::MAX).min(size - 1);
         let index = CellIndex {
             column: clamp(column, self.target.width()),
             row: clamp(row, self.target.height()),
@@ -90,9 +77,7 @@ impl<'a> Overlap<'a> {
         self.nearest_wall
             .as_ref()
             .and_then(|nearest| nearest.nearest(index))
-            .map_or(f64::NAN, |wall| {
-                (self.target.frame().cell_centre(wall) - point).norm_squared()
-            })
+            .map_or(f64::NAN, |wall| (self.target.frame().cell_centre(wall) - point).norm_squared())
     }
 }
 

@@ -23,21 +23,11 @@ pub(super) fn draw(seed: u64) -> anyhow::Result<Vec<Figure>> {
     let mut figures = vec![posterior(&world)?];
     let [target_tags, source_tags] = world.displaced_tags(SIGMA_PX);
     let robots = [
-        RobotMap {
-            map: target,
-            tags: &target_tags,
-        },
-        RobotMap {
-            map: source,
-            tags: &source_tags,
-        },
+        RobotMap { map: target, tags: &target_tags },
+        RobotMap { map: source, tags: &source_tags },
     ];
     let mut best = None;
-    for (name, method) in [
-        ("#1", Method::Rfid1),
-        ("#2", Method::Rfid2),
-        ("#3", Method::Rfid3),
-    ] {
+    for (name, method) in [("#1", Method::Rfid1), ("#2", Method::Rfid2), ("#3", Method::Rfid3)] {
         let report = align(method, &robots[0], &robots[1], &RfidParams::default())?;
         let Some(target_from_source) = report.outcome.found() else {
             continue;
@@ -62,15 +52,9 @@ pub(super) fn draw(seed: u64) -> anyhow::Result<Vec<Figure>> {
 /// The posterior of the tag that the target robot read most, as readings come in.
 fn posterior(world: &World) -> anyhow::Result<Figure> {
     let readings = &world.pair.target.readings;
-    let most_read = world
-        .target_tags
-        .iter()
-        .max_by_key(|tag| tag.readings)
-        .map(|tag| tag.tag_id);
-    let of_tag: Vec<&TagReading> = readings
-        .iter()
-        .filter(|reading| Some(reading.tag_id) == most_read)
-        .collect();
+    let most_read = world.target_tags.iter().max_by_key(|tag| tag.readings).map(|tag| tag.tag_id);
+    let of_tag: Vec<&TagReading> =
+        readings.iter().filter(|reading| Some(reading.tag_id) == most_read).collect();
     let mut panels: Vec<RgbImage> = Vec::new();
     let params = FilterParams::default();
     if let Some(first) = of_tag.first() {
@@ -79,10 +63,7 @@ fn posterior(world: &World) -> anyhow::Result<Figure> {
             for reading in of_tag.iter().take(count) {
                 filter.update(reading.robot_position, reading.range)?;
             }
-            let style = Heat {
-                gamma: 0.25,
-                ..Heat::default()
-            };
+            let style = Heat { gamma: 0.25, ..Heat::default() };
             panels.push(heat(&filter.posterior(), &style)?);
         }
     }
@@ -122,10 +103,7 @@ fn gaps(
     target_from_source: Se2,
 ) -> anyhow::Result<Figure> {
     let forward = |gaps| MergeParams {
-        mapping: Mapping::Forward {
-            rounding: ForwardRounding::Centre,
-            gaps,
-        },
+        mapping: Mapping::Forward { rounding: ForwardRounding::Centre, gaps },
         ..MergeParams::default()
     };
     let mut panels = Vec::new();
@@ -149,14 +127,8 @@ fn fuse(
     params: &MergeParams,
 ) -> anyhow::Result<OccupancyGrid> {
     let maps = [
-        PlacedMap {
-            map: target,
-            reference_from_map: Se2::identity(),
-        },
-        PlacedMap {
-            map: source,
-            reference_from_map: target_from_source,
-        },
+        PlacedMap { map: target, reference_from_map: Se2::identity() },
+        PlacedMap { map: source, reference_from_map: target_from_source },
     ];
     Ok(merge(&maps, params)?.map)
 }

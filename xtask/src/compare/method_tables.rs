@@ -9,11 +9,8 @@ use crate::report::{Criterion, Section, Table};
 use crate::stats::{Summary, student_half_width};
 
 /// Mean squared error and mean time that the paper prints for each method.
-const TABLE_4: [(&str, &str, &str); 3] = [
-    ("#1", "7178.27", "0.026"),
-    ("#2", "123.45", "10490.8"),
-    ("#3", "2.6", "18497.6"),
-];
+const TABLE_4: [(&str, &str, &str); 3] =
+    [("#1", "7178.27", "0.026"), ("#2", "123.45", "10490.8"), ("#3", "2.6", "18497.6")];
 
 /// Runs beyond this mean squared displacement are listed one by one, px².
 const OUTLIER: f64 = 100.0;
@@ -53,11 +50,7 @@ pub(super) fn section(args: &Args, runs: &[Run], timings: &[Timing]) -> Section 
             failures(runs),
         ],
         figures: Vec::new(),
-        criteria: if args.quick {
-            Vec::new()
-        } else {
-            criteria(runs)
-        },
+        criteria: if args.quick { Vec::new() } else { criteria(runs) },
     }
 }
 
@@ -68,35 +61,20 @@ struct Cell<'a> {
 
 impl<'a> Cell<'a> {
     fn new(runs: &'a [Run], case: &str, variant: &str) -> Self {
-        let chosen = runs
-            .iter()
-            .filter(|run| run.case == case && run.variant == variant);
-        Self {
-            runs: chosen.collect(),
-        }
+        let chosen = runs.iter().filter(|run| run.case == case && run.variant == variant);
+        Self { runs: chosen.collect() }
     }
 
     fn mse_disp(&self) -> Vec<f64> {
-        self.runs
-            .iter()
-            .filter_map(|run| run.errors())
-            .map(|errors| errors.mse_disp)
-            .collect()
+        self.runs.iter().filter_map(|run| run.errors()).map(|errors| errors.mse_disp).collect()
     }
 
     fn mse_nn(&self) -> Vec<f64> {
-        self.runs
-            .iter()
-            .filter_map(|run| run.errors())
-            .map(|errors| errors.mse_nn)
-            .collect()
+        self.runs.iter().filter_map(|run| run.errors()).map(|errors| errors.mse_nn).collect()
     }
 
     fn refused(&self) -> usize {
-        self.runs
-            .iter()
-            .filter(|run| matches!(run.result, RunResult::Refused(_)))
-            .count()
+        self.runs.iter().filter(|run| matches!(run.result, RunResult::Refused(_))).count()
     }
 
     fn summary(&self) -> Option<Summary> {
@@ -111,12 +89,7 @@ fn table_4(args: &Args, runs: &[Run]) -> Table {
         for (variant, paper, _) in TABLE_4 {
             let cell = Cell::new(runs, &case, variant);
             let first = Cell {
-                runs: cell
-                    .runs
-                    .iter()
-                    .filter(|run| run.seed < args.seed + 5)
-                    .copied()
-                    .collect(),
+                runs: cell.runs.iter().filter(|run| run.seed < args.seed + 5).copied().collect(),
             };
             let five = first.mse_disp();
             let mut row = vec![case.clone(), variant.to_owned(), paper.to_owned()];
@@ -178,19 +151,14 @@ fn table_4(args: &Args, runs: &[Run]) -> Table {
 /// the report and to timings.csv, never into a result file.
 fn times(timings: &[Timing]) -> Table {
     let rows = TABLE_4.map(|(variant, _, paper)| {
-        let values: Vec<f64> = timings
-            .iter()
-            .filter(|t| t.step == variant)
-            .map(|t| t.milliseconds)
-            .collect();
+        let values: Vec<f64> =
+            timings.iter().filter(|t| t.step == variant).map(|t| t.milliseconds).collect();
         let ours = Summary::of(&values);
         vec![
             variant.to_owned(),
             paper.to_owned(),
-            ours.as_ref()
-                .map_or("–".to_owned(), |s| format!("{:.3}", s.median)),
-            ours.as_ref()
-                .map_or("–".to_owned(), |s| format!("{:.3}", s.max)),
+            ours.as_ref().map_or("–".to_owned(), |s| format!("{:.3}", s.median)),
+            ours.as_ref().map_or("–".to_owned(), |s| format!("{:.3}", s.max)),
         ]
     });
     Table {
@@ -229,15 +197,9 @@ fn variants(runs: &[Run], building: Building) -> Table {
             "All variants on {name}: mean mse_disp / median mse_disp / mean mse_nn, px². The \
              printed forms of #1 depend on the frame's origin: that of the start pose unless said."
         ),
-        header: [
-            "variant",
-            "tags as localised",
-            "+ 2 px",
-            "+ 5 px",
-            "+ 10 px",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
+        header: ["variant", "tags as localised", "+ 2 px", "+ 5 px", "+ 10 px"]
+            .map(str::to_owned)
+            .to_vec(),
         rows: rows.collect(),
     }
 }
@@ -253,19 +215,12 @@ fn failures(runs: &[Run]) -> Table {
             }
             _ => continue,
         };
-        rows.push(vec![
-            run.case.clone(),
-            run.variant.clone(),
-            run.seed.to_string(),
-            what,
-        ]);
+        rows.push(vec![run.case.clone(), run.variant.clone(), run.seed.to_string(), what]);
     }
     Table {
         caption: "Every refused run of the defaults, and every run of #3 beyond 2.6 px²."
             .to_owned(),
-        header: ["regime", "method", "seed", "what"]
-            .map(str::to_owned)
-            .to_vec(),
+        header: ["regime", "method", "seed", "what"].map(str::to_owned).to_vec(),
         rows,
     }
 }
@@ -273,9 +228,7 @@ fn failures(runs: &[Run]) -> Table {
 fn criteria(runs: &[Run]) -> Vec<Criterion> {
     let mut criteria = Vec::new();
     let mean = |variant: &str, case: &str| {
-        Cell::new(runs, case, variant)
-            .summary()
-            .map_or(f64::NAN, |s| s.mean)
+        Cell::new(runs, case, variant).summary().map_or(f64::NAN, |s| s.mean)
     };
     for sigma_px in REGIMES {
         let case = case_name(Building::Random, sigma_px);

@@ -32,30 +32,13 @@ pub(crate) struct Variant {
 
 /// The defaults first.
 pub(crate) const VARIANTS: [Variant; 14] = [
-    Variant {
-        name: "#1",
-        method: Method::Rfid1,
-        params: |_| RfidParams::default(),
-    },
-    Variant {
-        name: "#2",
-        method: Method::Rfid2,
-        params: |_| RfidParams::default(),
-    },
-    Variant {
-        name: "#3",
-        method: Method::Rfid3,
-        params: |_| RfidParams::default(),
-    },
+    Variant { name: "#1", method: Method::Rfid1, params: |_| RfidParams::default() },
+    Variant { name: "#2", method: Method::Rfid2, params: |_| RfidParams::default() },
+    Variant { name: "#3", method: Method::Rfid3, params: |_| RfidParams::default() },
     Variant {
         name: "#1 with tags 1 and 2",
         method: Method::Rfid1,
-        params: |_| {
-            tag_only(TagOnlyParams {
-                rotation: TagOnlyRotation::P2,
-                ..Default::default()
-            })
-        },
+        params: |_| tag_only(TagOnlyParams { rotation: TagOnlyRotation::P2, ..Default::default() }),
     },
     Variant {
         name: "#1b least squares",
@@ -66,10 +49,7 @@ pub(crate) const VARIANTS: [Variant; 14] = [
         name: "#1 rotation as printed",
         method: Method::Rfid1,
         params: |_| {
-            tag_only(TagOnlyParams {
-                rotation: TagOnlyRotation::AsPrinted,
-                ..Default::default()
-            })
+            tag_only(TagOnlyParams { rotation: TagOnlyRotation::AsPrinted, ..Default::default() })
         },
     },
     Variant {
@@ -132,22 +112,12 @@ pub(crate) const VARIANTS: [Variant; 14] = [
     Variant {
         name: "#3 reciprocal only",
         method: Method::Rfid3,
-        params: |_| {
-            icp(IcpParams {
-                pairing: Pairing::Reciprocal,
-                ..Default::default()
-            })
-        },
+        params: |_| icp(IcpParams { pairing: Pairing::Reciprocal, ..Default::default() }),
     },
     Variant {
         name: "#3 one-way, gate to 5 px",
         method: Method::Rfid3,
-        params: |_| {
-            icp(IcpParams {
-                pairing: Pairing::OneWay,
-                ..Default::default()
-            })
-        },
+        params: |_| icp(IcpParams { pairing: Pairing::OneWay, ..Default::default() }),
     },
     Variant {
         name: "#3 rectangle only, no gate",
@@ -164,17 +134,11 @@ pub(crate) const VARIANTS: [Variant; 14] = [
 ];
 
 fn tag_only(tag_only: TagOnlyParams) -> RfidParams {
-    RfidParams {
-        tag_only,
-        ..Default::default()
-    }
+    RfidParams { tag_only, ..Default::default() }
 }
 
 fn icp(icp: IcpParams) -> RfidParams {
-    RfidParams {
-        icp,
-        ..Default::default()
-    }
+    RfidParams { icp, ..Default::default() }
 }
 
 fn corner(map: &OccupancyGrid) -> Point2<f64> {
@@ -188,10 +152,7 @@ fn image_centre(map: &OccupancyGrid) -> Point2<f64> {
 
 /// Runs every variant on its share of the worlds.
 pub(crate) fn run(args: &Args) -> anyhow::Result<Measured> {
-    let bar = progress(
-        "X4 worlds",
-        args.worlds() + PLAN_A_WORLDS.min(args.worlds()),
-    );
+    let bar = progress("X4 worlds", args.worlds() + PLAN_A_WORLDS.min(args.worlds()));
     let random: Vec<(Vec<Run>, Vec<Timing>)> = (0..args.worlds())
         .into_par_iter()
         .map(|index| {
@@ -216,11 +177,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Measured> {
     let timings = timings.concat();
     let mut section = method_tables::section(args, &runs, &timings);
     section.figures = method_figures::draw(args.seed)?;
-    Ok(Measured {
-        sections: vec![section],
-        runs,
-        timings,
-    })
+    Ok(Measured { sections: vec![section], runs, timings })
 }
 
 fn run_world(
@@ -229,27 +186,14 @@ fn run_world(
     all_variants: bool,
 ) -> anyhow::Result<(Vec<Run>, Vec<Timing>)> {
     let world = World::simulate(building, seed)?;
-    let overlap = Overlap::new(
-        &world.pair.target.map,
-        &world.pair.source.map,
-        world.target_from_source(),
-    );
-    let variants = if all_variants {
-        &VARIANTS[..]
-    } else {
-        &VARIANTS[..DEFAULT_VARIANTS]
-    };
+    let overlap =
+        Overlap::new(&world.pair.target.map, &world.pair.source.map, world.target_from_source());
+    let variants = if all_variants { &VARIANTS[..] } else { &VARIANTS[..DEFAULT_VARIANTS] };
     let (mut runs, mut timings) = (Vec::new(), Vec::new());
     for sigma_px in REGIMES {
         let [target_tags, source_tags] = world.displaced_tags(sigma_px);
-        let target = RobotMap {
-            map: &world.pair.target.map,
-            tags: &target_tags,
-        };
-        let source = RobotMap {
-            map: &world.pair.source.map,
-            tags: &source_tags,
-        };
+        let target = RobotMap { map: &world.pair.target.map, tags: &target_tags };
+        let source = RobotMap { map: &world.pair.source.map, tags: &source_tags };
         for variant in variants {
             let params = (variant.params)(&world);
             let start = Instant::now();
@@ -268,12 +212,7 @@ fn run_world(
                 seed,
                 result,
             });
-            timings.push(Timing {
-                experiment: "X4",
-                step: variant.name,
-                seed,
-                milliseconds,
-            });
+            timings.push(Timing { experiment: "X4", step: variant.name, seed, milliseconds });
         }
     }
     Ok((runs, timings))
@@ -288,9 +227,6 @@ pub(crate) fn case_name(building: Building, sigma_px: f64) -> String {
     if sigma_px == 0.0 {
         format!("{building}, tags as localised")
     } else {
-        format!(
-            "{building}, tags + {sigma_px:.0} px ({:.0} cm)",
-            sigma_px * PIXEL * 100.0
-        )
+        format!("{building}, tags + {sigma_px:.0} px ({:.0} cm)", sigma_px * PIXEL * 100.0)
     }
 }

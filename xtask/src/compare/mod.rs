@@ -70,10 +70,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Verdict> {
 
 impl Measured {
     fn of_section(section: Section) -> Self {
-        Self {
-            sections: vec![section],
-            ..Self::default()
-        }
+        Self { sections: vec![section], ..Self::default() }
     }
 
     fn extend(&mut self, other: Self) {

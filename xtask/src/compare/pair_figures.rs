@@ -14,11 +14,7 @@ pub(super) fn draw(answers: &[(&MapPair, Option<Se2>)]) -> anyhow::Result<Vec<Fi
             figures.push(Figure {
                 name: format!("pair-{}", pair.name),
                 caption: format!("{}: target blue, source orange, both black.", pair.name),
-                image: Image::Png(png(&overlay(
-                    &pair.target,
-                    &pair.source,
-                    *target_from_source,
-                )?)?),
+                image: Image::Png(png(&overlay(&pair.target, &pair.source, *target_from_source)?)?),
             });
         }
     }

@@ -43,9 +43,8 @@ struct TruthFile {
 pub(crate) fn read_pairs(folder: &Path) -> anyhow::Result<Vec<MapPair>> {
     let entries = std::fs::read_dir(folder)
         .with_context(|| format!("cannot list the map pairs in {}", folder.display()))?;
-    let mut folders: Vec<PathBuf> = entries
-        .map(|entry| entry.map(|entry| entry.path()))
-        .collect::<Result<_, _>>()?;
+    let mut folders: Vec<PathBuf> =
+        entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<_, _>>()?;
     folders.retain(|path| path.join("truth.json").is_file());
     folders.sort();
     anyhow::ensure!(
@@ -65,15 +64,8 @@ fn read_pair(folder: &Path) -> anyhow::Result<MapPair> {
         .with_context(|| format!("cannot read {}", path.display()))?;
     let file: TruthFile =
         serde_json::from_str(&text).with_context(|| format!("in {}", path.display()))?;
-    let name = folder
-        .file_name()
-        .map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-    Ok(MapPair {
-        name,
-        target: read("a.yaml")?,
-        source: read("b.yaml")?,
-        truth: file.truth(),
-    })
+    let name = folder.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
+    Ok(MapPair { name, target: read("a.yaml")?, source: read("b.yaml")?, truth: file.truth() })
 }
 
 impl TruthFile {
@@ -113,10 +105,7 @@ impl MapPair {
         let mut walls = self.source.occupied_points(&thresholds);
         walls.retain(|&wall| {
             let image = truth.target_from_source * wall;
-            let near = self
-                .target
-                .cell_at(image)
-                .and_then(|index| nearest.nearest(index));
+            let near = self.target.cell_at(image).and_then(|index| nearest.nearest(index));
             near.is_some_and(|near| (frame.cell_centre(near) - image).norm() <= reach)
         });
         walls
@@ -128,9 +117,7 @@ impl MapPair {
 pub(crate) fn spread_out(points: &[Point2<f64>], count: usize, start: u64) -> Vec<Point2<f64>> {
     let mut chosen = Vec::new();
     let mut distance_sq = vec![f64::INFINITY; points.len()];
-    let mut next = usize::try_from(start)
-        .unwrap_or(0)
-        .checked_rem(points.len());
+    let mut next = usize::try_from(start).unwrap_or(0).checked_rem(points.len());
     while let Some(index) = next.filter(|_| chosen.len() < count) {
         let point = points[index];
         chosen.push(point);

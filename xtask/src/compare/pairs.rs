@@ -21,11 +21,8 @@ const PASSING: f64 = 2.0;
 /// Tags placed on each pair, as many as in the simulated worlds.
 const TAGS: usize = 16;
 
-const METHODS: [(&str, Method); 3] = [
-    ("#1", Method::Rfid1),
-    ("#2", Method::Rfid2),
-    ("#3", Method::Rfid3),
-];
+const METHODS: [(&str, Method); 3] =
+    [("#1", Method::Rfid1), ("#2", Method::Rfid2), ("#3", Method::Rfid3)];
 
 const ANALYSIS: &str = "\
 The maps are real, the tags are not. Each robot drives through the free space that its own map \
@@ -60,16 +57,10 @@ pub(super) fn run(args: &Args, folder: &Path) -> anyhow::Result<Measured> {
         .collect::<anyhow::Result<_>>()?;
     bar.finish_and_clear();
 
-    let verdicts: Vec<Verdict> = pairs
-        .iter()
-        .zip(&answers)
-        .map(|(p, a)| Verdict::of(p, a))
-        .collect();
-    let overlaid: Vec<_> = pairs
-        .iter()
-        .zip(&answers)
-        .map(|(p, a)| (p, a.target_from_source))
-        .collect();
+    let verdicts: Vec<Verdict> =
+        pairs.iter().zip(&answers).map(|(p, a)| Verdict::of(p, a)).collect();
+    let overlaid: Vec<_> =
+        pairs.iter().zip(&answers).map(|(p, a)| (p, a.target_from_source)).collect();
     let section = Section {
         id: "pairs".to_owned(),
         title: "Real map pairs".to_owned(),
@@ -78,27 +69,14 @@ pub(super) fn run(args: &Args, folder: &Path) -> anyhow::Result<Measured> {
         figures: pair_figures::draw(&overlaid)?,
         criteria: criteria(&pairs, &verdicts),
     };
-    let runs = answers
-        .into_iter()
-        .flat_map(|answers| answers.runs)
-        .collect();
-    Ok(Measured {
-        sections: vec![section],
-        runs,
-        timings: Vec::new(),
-    })
+    let runs = answers.into_iter().flat_map(|answers| answers.runs).collect();
+    Ok(Measured { sections: vec![section], runs, timings: Vec::new() })
 }
 
 fn answer(pair: &MapPair, seed: u64) -> anyhow::Result<Answers> {
     let [target_tags, source_tags] = localised_tags(pair, seed)?;
-    let target = RobotMap {
-        map: &pair.target,
-        tags: &target_tags,
-    };
-    let source = RobotMap {
-        map: &pair.source,
-        tags: &source_tags,
-    };
+    let target = RobotMap { map: &pair.target, tags: &target_tags };
+    let source = RobotMap { map: &pair.source, tags: &source_tags };
     let params = RfidParams::default();
     let mut runs = Vec::new();
     let mut common_tags = 0;
@@ -122,25 +100,14 @@ fn answer(pair: &MapPair, seed: u64) -> anyhow::Result<Answers> {
             result,
         });
     }
-    Ok(Answers {
-        runs,
-        common_tags,
-        target_from_source: answered_target_from_source,
-    })
+    Ok(Answers { runs, common_tags, target_from_source: answered_target_from_source })
 }
 
 fn errors(pair: &MapPair, truth: &Truth, target_from_source: &Se2) -> TransformError {
     let overlap = Overlap::new(&pair.target, &pair.source, truth.target_from_source);
-    let (translation_m, rotation) = pose_error(
-        target_from_source,
-        &truth.target_from_source,
-        pair.source_centroid(),
-    );
-    TransformError {
-        translation_m,
-        rotation,
-        ..overlap.errors(target_from_source)
-    }
+    let (translation_m, rotation) =
+        pose_error(target_from_source, &truth.target_from_source, pair.source_centroid());
+    TransformError { translation_m, rotation, ..overlap.errors(target_from_source) }
 }
 
 /// The tags as each robot localises them on its own drive, target first.
@@ -218,11 +185,7 @@ enum Verdict {
 
 impl Verdict {
     fn of(pair: &MapPair, answers: &Answers) -> Self {
-        let result = answers
-            .runs
-            .iter()
-            .find(|run| run.variant == "#3")
-            .map(|run| &run.result);
+        let result = answers.runs.iter().find(|run| run.variant == "#3").map(|run| &run.result);
         match (result, &pair.truth) {
             (Some(RunResult::Transform(e)), Some(truth)) => {
                 let cell = pair.target.frame().resolution();
@@ -257,59 +220,42 @@ impl Verdict {
 }
 
 fn table(pairs: &[MapPair], answers: &[Answers], verdicts: &[Verdict]) -> Table {
-    let rows = pairs
-        .iter()
-        .zip(answers)
-        .zip(verdicts)
-        .map(|((pair, answers), verdict)| {
-            let mut row = vec![
-                pair.name.clone(),
-                match &pair.truth {
-                    Some(truth) if truth.exact => "exact".to_owned(),
-                    Some(truth) => format!("{:.2} m", truth.tolerance_m),
-                    None => "no match".to_owned(),
-                },
-                answers.common_tags.to_string(),
-            ];
-            row.extend(answers.runs.iter().map(|run| match &run.result {
-                RunResult::Transform(e) => {
-                    format!("{:.3} m, {:.2}°", e.translation_m, e.rotation.to_degrees())
-                }
-                RunResult::Refused(_) => "refused".to_owned(),
-                RunResult::FalseMerge | RunResult::Direction(_) => "merged".to_owned(),
-            }));
-            row.push(verdict.text().to_owned());
-            row.push(why(answers).map_or_else(String::new, ToString::to_string));
-            row
-        });
+    let rows = pairs.iter().zip(answers).zip(verdicts).map(|((pair, answers), verdict)| {
+        let mut row = vec![
+            pair.name.clone(),
+            match &pair.truth {
+                Some(truth) if truth.exact => "exact".to_owned(),
+                Some(truth) => format!("{:.2} m", truth.tolerance_m),
+                None => "no match".to_owned(),
+            },
+            answers.common_tags.to_string(),
+        ];
+        row.extend(answers.runs.iter().map(|run| match &run.result {
+            RunResult::Transform(e) => {
+                format!("{:.3} m, {:.2}°", e.translation_m, e.rotation.to_degrees())
+            }
+            RunResult::Refused(_) => "refused".to_owned(),
+            RunResult::FalseMerge | RunResult::Direction(_) => "merged".to_owned(),
+        }));
+        row.push(verdict.text().to_owned());
+        row.push(why(answers).map_or_else(String::new, ToString::to_string));
+        row
+    });
     Table {
         caption: "Error of each method, and the verdict on #3.".to_owned(),
-        header: [
-            "pair",
-            "truth",
-            "common tags",
-            "#1",
-            "#2",
-            "#3",
-            "verdict",
-            "why not",
-        ]
-        .map(str::to_owned)
-        .to_vec(),
+        header: ["pair", "truth", "common tags", "#1", "#2", "#3", "verdict", "why not"]
+            .map(str::to_owned)
+            .to_vec(),
         rows: rows.collect(),
     }
 }
 
 /// The refusal of #3, if it refused.
 fn why(answers: &Answers) -> Option<&Refusal> {
-    answers
-        .runs
-        .iter()
-        .find(|run| run.variant == "#3")
-        .and_then(|run| match &run.result {
-            RunResult::Refused(refusal) => Some(refusal),
-            _ => None,
-        })
+    answers.runs.iter().find(|run| run.variant == "#3").and_then(|run| match &run.result {
+        RunResult::Refused(refusal) => Some(refusal),
+        _ => None,
+    })
 }
 
 fn criteria(pairs: &[MapPair], verdicts: &[Verdict]) -> Vec<Criterion> {
@@ -319,10 +265,7 @@ fn criteria(pairs: &[MapPair], verdicts: &[Verdict]) -> Vec<Criterion> {
             .filter(|(pair, _)| pair.truth.as_ref().is_some_and(of_interest))
             .map(|(_, verdict)| *verdict)
             .collect();
-        (
-            chosen.iter().filter(|verdict| good(**verdict)).count(),
-            chosen.len(),
-        )
+        (chosen.iter().filter(|verdict| good(**verdict)).count(), chosen.len())
     };
     let share = |(good, all): (usize, usize)| good as f64 / all as f64;
     let criterion = |id: &str, statement: String, counts, need: f64| Criterion {
@@ -335,10 +278,7 @@ fn criteria(pairs: &[MapPair], verdicts: &[Verdict]) -> Vec<Criterion> {
     };
     let inside = judged(|_| true, Verdict::is_inside);
     let strict = judged(|truth| truth.exact, |verdict| verdict == Verdict::Strict);
-    let false_merges = verdicts
-        .iter()
-        .filter(|v| **v == Verdict::FalseMerge)
-        .count();
+    let false_merges = verdicts.iter().filter(|v| **v == Verdict::FalseMerge).count();
     vec![
         criterion(
             "pairs: #3 inside",

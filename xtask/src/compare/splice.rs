@@ -22,18 +22,13 @@ pub(super) fn into_document(document: &Path, report: &Report) -> anyhow::Result<
             content.push('\n');
         }
     }
-    let command = report
-        .info
-        .first()
-        .map_or("", |(_, command)| command.as_str());
+    let command = report.info.first().map_or("", |(_, command)| command.as_str());
     let spliced = report::splice(&text, "results", &content, command)
         .with_context(|| format!("in {}", document.display()))?;
     let figures = report.sections.iter().flat_map(|section| &section.figures);
     for figure in figures.filter(|figure| figure.name == PICTURE) {
         if let Image::Png(bytes) = &figure.image {
-            let path = document
-                .with_file_name("docs")
-                .join(format!("{PICTURE}.png"));
+            let path = document.with_file_name("docs").join(format!("{PICTURE}.png"));
             report::write_file(&path, bytes)?;
         }
     }

@@ -68,43 +68,24 @@ fn forms() -> [Form; 3] {
 /// Extracts the direction of plan A's map for many seeds and headings.
 pub(super) fn run(args: &Args) -> anyhow::Result<Measured> {
     let plan = FloorPlan::plan_a();
-    let robots = PairParams {
-        seed: args.seed,
-        ..PairParams::default()
-    };
+    let robots = PairParams { seed: args.seed, ..PairParams::default() };
     let map = survey(&plan, 0.0, &robots)?.map;
     let mut measured = Measured::default();
 
     let bar = progress("X3 extractions", 3 * args.extractions() + 20);
     for form in &forms() {
-        let results = extract_many(form, &map, 0.0, args.seed, args.extractions(), || {
-            bar.inc(1)
-        })?;
-        measured.runs.extend(
-            results
-                .iter()
-                .map(|r| r.run(form.id, "axis-aligned", form.name)),
-        );
-        measured
-            .timings
-            .extend(results.iter().map(|r| r.timing(form.id)));
+        let results = extract_many(form, &map, 0.0, args.seed, args.extractions(), || bar.inc(1))?;
+        measured.runs.extend(results.iter().map(|r| r.run(form.id, "axis-aligned", form.name)));
+        measured.timings.extend(results.iter().map(|r| r.timing(form.id)));
     }
     let per_heading = args.extractions().div_ceil(20);
     let default = &forms()[2];
     for heading in headings() {
         let turned = survey(&plan, heading.to_radians(), &robots)?.map;
-        let results = extract_many(
-            default,
-            &turned,
-            heading.to_radians(),
-            args.seed,
-            per_heading,
-            || {},
-        )?;
+        let results =
+            extract_many(default, &turned, heading.to_radians(), args.seed, per_heading, || {})?;
         let case = format!("turned by {heading}°");
-        measured
-            .runs
-            .extend(results.iter().map(|r| r.run("X3d", &case, default.name)));
+        measured.runs.extend(results.iter().map(|r| r.run("X3d", &case, default.name)));
         bar.inc(1);
     }
     bar.finish_and_clear();
@@ -115,11 +96,7 @@ pub(super) fn run(args: &Args) -> anyhow::Result<Measured> {
         analysis: ANALYSIS.to_owned(),
         tables: vec![directions(args, &measured.runs), times(&measured.timings)],
         figures: direction_figures::draw(&map, &measured.runs, args.seed)?,
-        criteria: if args.quick {
-            Vec::new()
-        } else {
-            criteria(&measured.runs)
-        },
+        criteria: if args.quick { Vec::new() } else { criteria(&measured.runs) },
     });
     Ok(measured)
 }
@@ -147,12 +124,7 @@ impl Extracted {
 
     fn timing(&self, experiment: &'static str) -> Timing {
         let (seed, milliseconds) = (self.seed, self.milliseconds);
-        Timing {
-            experiment,
-            step: "lines and vector",
-            seed,
-            milliseconds,
-        }
+        Timing { experiment, step: "lines and vector", seed, milliseconds }
     }
 }
 
@@ -164,31 +136,19 @@ fn extract_many(
     count: u64,
     done: impl Fn() + Sync,
 ) -> anyhow::Result<Vec<Extracted>> {
-    let results = (first_seed..first_seed + count)
-        .into_par_iter()
-        .map(|seed| {
-            let start = Instant::now();
-            let lines = line_ransac::Params {
-                seed,
-                ..form.lines.clone()
-            };
-            let vector = line_ransac::extract_segments(map, &lines)
-                .into_result()
-                .and_then(|extraction| {
-                    ogm_vector(&extraction.segments, &form.vector).into_result()
-                });
-            let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-            done();
-            // A wall along the world's x axis lies at minus the heading in the map's frame.
-            let error = vector.map(|v: OgmVector| {
-                wrap_period(v.theta_ogm() + FRAC_PI_4 + map_heading, FRAC_PI_2)
-            });
-            Extracted {
-                seed,
-                error: error.into(),
-                milliseconds,
-            }
-        });
+    let results = (first_seed..first_seed + count).into_par_iter().map(|seed| {
+        let start = Instant::now();
+        let lines = line_ransac::Params { seed, ..form.lines.clone() };
+        let vector = line_ransac::extract_segments(map, &lines)
+            .into_result()
+            .and_then(|extraction| ogm_vector(&extraction.segments, &form.vector).into_result());
+        let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+        done();
+        // A wall along the world's x axis lies at minus the heading in the map's frame.
+        let error = vector
+            .map(|v: OgmVector| wrap_period(v.theta_ogm() + FRAC_PI_4 + map_heading, FRAC_PI_2));
+        Extracted { seed, error: error.into(), milliseconds }
+    });
     Ok(results.collect())
 }
 
@@ -204,17 +164,9 @@ pub(super) fn errors_deg(runs: &[Run], experiment: &str) -> Vec<f64> {
 
 fn directions(args: &Args, runs: &[Run]) -> Table {
     let rows = [
-        (
-            "X3a",
-            "paper's values, printed weights",
-            "−45.0497 ± 0.5598",
-        ),
+        ("X3a", "paper's values, printed weights", "−45.0497 ± 0.5598"),
         ("X3b", "paper's values, corrected weights", "–"),
-        (
-            "X3c",
-            "default: least-squares directions, four-fold mean",
-            "–",
-        ),
+        ("X3c", "default: least-squares directions, four-fold mean", "–"),
         ("X3d", "default, map turned by 45° and 19 other angles", "–"),
     ]
     .map(|(id, what, paper)| {
@@ -222,9 +174,7 @@ fn directions(args: &Args, runs: &[Run]) -> Table {
         let refused = runs.iter().filter(|run| run.experiment == id).count() - errors.len();
         let five = Summary::of(&errors[..errors.len().min(5)]);
         let mut row = vec![id.to_owned(), what.to_owned(), paper.to_owned()];
-        row.push(five.map_or("–".to_owned(), |s| {
-            format!("{:.4} ± {:.4}", s.mean - 45.0, s.sd)
-        }));
+        row.push(five.map_or("–".to_owned(), |s| format!("{:.4} ± {:.4}", s.mean - 45.0, s.sd)));
         match Summary::of(&errors) {
             Some(s) => row.extend([
                 format!("{:.4} ± {:.4}", s.mean - 45.0, s.sd),
@@ -262,16 +212,9 @@ fn directions(args: &Args, runs: &[Run]) -> Table {
 
 fn times(timings: &[Timing]) -> Table {
     let rows = ["X3a", "X3b", "X3c"].map(|id| {
-        let values: Vec<f64> = timings
-            .iter()
-            .filter(|t| t.experiment == id)
-            .map(|t| t.milliseconds)
-            .collect();
-        let paper = if id == "X3a" {
-            "938.67 ± 154.05"
-        } else {
-            "–"
-        };
+        let values: Vec<f64> =
+            timings.iter().filter(|t| t.experiment == id).map(|t| t.milliseconds).collect();
+        let paper = if id == "X3a" { "938.67 ± 154.05" } else { "–" };
         let ours = Summary::of(&values)
             .map_or("–".to_owned(), |s| format!("{:.2} ± {:.2}", s.mean, s.sd));
         vec![id.to_owned(), paper.to_owned(), ours]
@@ -286,9 +229,8 @@ fn times(timings: &[Timing]) -> Table {
 
 fn criteria(runs: &[Run]) -> Vec<Criterion> {
     let summary = |id: &str| Summary::of(&errors_deg(runs, id));
-    let (mean_b, interval_b, sd_b) = summary("X3b").map_or((f64::NAN, None, f64::NAN), |s| {
-        (s.mean.abs(), Some(s.ci95), s.sd)
-    });
+    let (mean_b, interval_b, sd_b) =
+        summary("X3b").map_or((f64::NAN, None, f64::NAN), |s| (s.mean.abs(), Some(s.ci95), s.sd));
     let sd_c = summary("X3c").map_or(f64::NAN, |s| s.sd);
     let criterion = |id: &str, statement: &str, paper: &str, ours: f64, interval, pass| Criterion {
         id: id.to_owned(),
@@ -315,13 +257,6 @@ fn criteria(runs: &[Run]) -> Vec<Criterion> {
             None,
             sd_b <= PAPER_SD,
         ),
-        criterion(
-            "X3c: σ",
-            "default: σ ≤ 0.2°",
-            "0.5598",
-            sd_c,
-            None,
-            sd_c <= 0.2,
-        ),
+        criterion("X3c: σ", "default: σ ≤ 0.2°", "0.5598", sd_c, None, sd_c <= 0.2),
     ]
 }

@@ -11,14 +11,8 @@ use crate::report::{Criterion, Section, Table};
 /// Table 1: directions of six walls, degrees.
 const TABLE_1: [f64; 6] = [2.0, 90.0, -1.0, -89.0, 179.0, 79.0];
 /// Table 2: the same after grouping, degrees, with the group of each.
-const TABLE_2: [(f64, usize); 6] = [
-    (2.0, 0),
-    (90.0, 1),
-    (-1.0, 0),
-    (91.0, 1),
-    (-1.0, 0),
-    (79.0, 1),
-];
+const TABLE_2: [(f64, usize); 6] =
+    [(2.0, 0), (90.0, 1), (-1.0, 0), (91.0, 1), (-1.0, 0), (79.0, 1)];
 
 /// Table 3: tag, certainty in the first and in the second map, percent.
 const TABLE_3: [(u32, f64, f64); 3] = [(5, 82.0, 92.0), (7, 99.0, 76.0), (9, 91.0, 92.0)];
@@ -30,13 +24,7 @@ pub(super) fn grouping_of_walls() -> Measured {
     let segments = TABLE_1.map(|degrees| {
         let direction = degrees.to_radians();
         let end = Point2::new(direction.cos(), direction.sin());
-        Segment {
-            start: Point2::origin(),
-            end,
-            direction,
-            reliability: 1.0,
-            support: 1,
-        }
+        Segment { start: Point2::origin(), end, direction, reliability: 1.0, support: 1 }
     });
     let mut ours = [(f64::NAN, usize::MAX); 6];
     if let Outcome::Found(vector) = ogm_vector(&segments, &ogm_vector::Params::default()) {
@@ -65,9 +53,7 @@ pub(super) fn grouping_of_walls() -> Measured {
         analysis: "Six walls are sorted into two perpendicular groups around the first.".to_owned(),
         tables: vec![Table {
             caption: "Directions before and after the grouping.".to_owned(),
-            header: ["wall", "Table 1", "Table 2", "ours"]
-                .map(str::to_owned)
-                .to_vec(),
+            header: ["wall", "Table 1", "Table 2", "ours"].map(str::to_owned).to_vec(),
             rows: rows.collect(),
         }],
         figures: Vec::new(),
@@ -98,10 +84,9 @@ pub(super) fn choice_of_tags() -> anyhow::Result<Measured> {
     let pairs = common_tags(&estimates(|row| row.1), &estimates(|row| row.2))?;
     let selected = select_tags(&pairs, &SelectionParams::default());
     let ours: Vec<(u32, f64)> = match &selected {
-        Outcome::Found(pairs) => pairs
-            .iter()
-            .map(|pair| (pair.tag_id(), pair.certainty() * 100.0))
-            .collect(),
+        Outcome::Found(pairs) => {
+            pairs.iter().map(|pair| (pair.tag_id(), pair.certainty() * 100.0)).collect()
+        }
         Outcome::Refused(_) => Vec::new(),
     };
     let equal = ours
@@ -109,19 +94,11 @@ pub(super) fn choice_of_tags() -> anyhow::Result<Measured> {
         .zip(&TABLE_3_ORDER)
         .filter(|(ours, paper)| ours.0 == paper.0 && (ours.1 - paper.1).abs() < 1e-9);
     let equal = equal.count();
-    let rows = TABLE_3_ORDER
-        .iter()
-        .enumerate()
-        .map(|(rank, (id, precision))| {
-            let ours = ours
-                .get(rank)
-                .map_or("refused".to_owned(), |o| format!("{} ({:.0} %)", o.0, o.1));
-            vec![
-                (rank + 1).to_string(),
-                format!("{id} ({precision} %)"),
-                ours,
-            ]
-        });
+    let rows = TABLE_3_ORDER.iter().enumerate().map(|(rank, (id, precision))| {
+        let ours =
+            ours.get(rank).map_or("refused".to_owned(), |o| format!("{} ({:.0} %)", o.0, o.1));
+        vec![(rank + 1).to_string(), format!("{id} ({precision} %)"), ours]
+    });
     Ok(Measured::of_section(Section {
         id: "X2".to_owned(),
         title: "Choice of tags (Table 3)".to_owned(),

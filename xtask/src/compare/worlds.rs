@@ -32,22 +32,11 @@ impl World {
             Building::Random => FloorPlan::random(seed)?,
             Building::PlanA => FloorPlan::plan_a(),
         };
-        let pair = simulate_pair(
-            &plan,
-            &PairParams {
-                seed,
-                ..PairParams::default()
-            },
-        )?;
+        let pair = simulate_pair(&plan, &PairParams { seed, ..PairParams::default() })?;
         let filter = FilterParams::default();
         let target_tags = localise(&pair.target.readings, &filter)?;
         let source_tags = localise(&pair.source.readings, &filter)?;
-        Ok(Self {
-            pair,
-            target_tags,
-            source_tags,
-            seed,
-        })
+        Ok(Self { pair, target_tags, source_tags, seed })
     }
 
     pub(crate) fn target_from_source(&self) -> Se2 {
@@ -62,10 +51,7 @@ impl World {
         let mut displace = |tags: &[TagEstimate]| {
             let displaced = tags.iter().map(|tag| {
                 let unit = Vector2::from_fn(|_, _| StandardNormal.sample(&mut rng));
-                TagEstimate {
-                    position: tag.position + unit * (sigma_px * PIXEL),
-                    ..*tag
-                }
+                TagEstimate { position: tag.position + unit * (sigma_px * PIXEL), ..*tag }
             });
             displaced.collect()
         };

@@ -36,11 +36,7 @@ impl Scale {
         }
         if log {
             // A bar of the least value still has a length.
-            return Self {
-                from: (low - 0.05).floor(),
-                to: high.ceil(),
-                log,
-            };
+            return Self { from: (low - 0.05).floor(), to: high.ceil(), log };
         }
         // One value, or values that differ by rounding only, still need a span.
         if high - low <= 1e-12 * high.abs().max(low.abs()).max(1e-290) {
@@ -48,11 +44,7 @@ impl Scale {
             (low, high) = (low - half, high + half);
         }
         let margin = room * (high - low);
-        Self {
-            from: low - margin,
-            to: high + margin,
-            log,
-        }
+        Self { from: low - margin, to: high + margin, log }
     }
 
     /// The lower end of the axis.
@@ -63,17 +55,11 @@ impl Scale {
     /// Position in [0, 1] along the axis, or `None` if the value cannot be drawn.
     fn share(&self, value: f64) -> Option<f64> {
         let position = if self.log { value.log10() } else { value };
-        position
-            .is_finite()
-            .then(|| (position - self.from) / (self.to - self.from))
+        position.is_finite().then(|| (position - self.from) / (self.to - self.from))
     }
 
     fn value(&self, position: f64) -> f64 {
-        if self.log {
-            10_f64.powf(position)
-        } else {
-            position
-        }
+        if self.log { 10_f64.powf(position) } else { position }
     }
 
     /// About `count` round values on the axis with their labels.
@@ -87,11 +73,7 @@ impl Scale {
         let mut position = (self.from / step - 1e-9).ceil() * step;
         while position <= self.to + 1e-9 * step && ticks.len() < 50 {
             let value = self.value(position);
-            let label = if self.log {
-                power_of_ten(value)
-            } else {
-                decimal(position, step)
-            };
+            let label = if self.log { power_of_ten(value) } else { decimal(position, step) };
             ticks.push((value, label));
             position += step;
         }
@@ -103,9 +85,7 @@ impl Scale {
 fn round_step(step: f64) -> f64 {
     let power = 10_f64.powf(step.log10().floor());
     let factors = [1.0, 2.0, 5.0];
-    let factor = factors
-        .into_iter()
-        .find(|factor| factor * power >= step * 0.999);
+    let factor = factors.into_iter().find(|factor| factor * power >= step * 0.999);
     factor.unwrap_or(10.0) * power
 }
 
@@ -159,10 +139,7 @@ impl Axes {
         x_ticks: Option<Vec<(f64, String)>>,
     ) -> Self {
         let legend = legend_rows(&labels.legend);
-        let svg = Svg::new(
-            WIDTH,
-            HEIGHT + LEGEND_ROW * legend.len() as f64 + LEGEND_GAP,
-        );
+        let svg = Svg::new(WIDTH, HEIGHT + LEGEND_ROW * legend.len() as f64 + LEGEND_GAP);
         let mut axes = Self { svg, x, y };
         let (right, base) = (WIDTH - RIGHT, HEIGHT - BOTTOM);
         for (value, label) in y.ticks(6.0) {
@@ -170,8 +147,7 @@ impl Axes {
                 continue;
             };
             axes.svg.line([LEFT, at[1]], [right, at[1]], FAINT, 1.0);
-            axes.svg
-                .text([LEFT - 8.0, at[1] + 4.0], Anchor::End, &label);
+            axes.svg.text([LEFT - 8.0, at[1] + 4.0], Anchor::End, &label);
         }
         for (value, label) in x_ticks.unwrap_or_else(|| x.ticks(7.0)) {
             let Some(at) = axes.at(value, y.start()) else {
@@ -183,19 +159,13 @@ impl Axes {
         axes.svg.line([LEFT, base], [right, base], INK, 1.0);
         axes.svg.line([LEFT, TOP], [LEFT, base], INK, 1.0);
         axes.svg.title([LEFT, 20.0], labels.title);
-        axes.svg.text(
-            [(LEFT + right) / 2.0, HEIGHT - 10.0],
-            Anchor::Middle,
-            labels.x,
-        );
+        axes.svg.text([(LEFT + right) / 2.0, HEIGHT - 10.0], Anchor::Middle, labels.x);
         axes.svg.upward_text([16.0, (TOP + base) / 2.0], labels.y);
         for (row, entries) in legend.iter().enumerate() {
             let y = HEIGHT + LEGEND_GAP + LEGEND_ROW * row as f64;
             for &(x, index) in entries {
-                axes.svg
-                    .bar([x, y - 4.0], [x + 14.0, y + 4.0], series(index));
-                axes.svg
-                    .text([x + 20.0, y + 4.0], Anchor::Start, labels.legend[index]);
+                axes.svg.bar([x, y - 4.0], [x + 14.0, y + 4.0], series(index));
+                axes.svg.text([x + 20.0, y + 4.0], Anchor::Start, labels.legend[index]);
             }
         }
         axes
@@ -204,18 +174,13 @@ impl Axes {
     /// The pixel of a data point, or `None` if it cannot be drawn.
     pub(crate) fn at(&self, x: f64, y: f64) -> Option<[f64; 2]> {
         let (x, y) = (self.x.share(x)?, self.y.share(y)?);
-        Some([
-            LEFT + x * (WIDTH - LEFT - RIGHT),
-            HEIGHT - BOTTOM - y * (HEIGHT - TOP - BOTTOM),
-        ])
+        Some([LEFT + x * (WIDTH - LEFT - RIGHT), HEIGHT - BOTTOM - y * (HEIGHT - TOP - BOTTOM)])
     }
 
     /// Labelled vertical lines through the panel; the labels stand on rows of their own.
     pub(crate) fn mark_x(&mut self, marks: &[(String, f64)]) {
         let base = self.y.start();
-        let places = marks
-            .iter()
-            .filter_map(|(label, x)| Some((label, self.at(*x, base)?[0])));
+        let places = marks.iter().filter_map(|(label, x)| Some((label, self.at(*x, base)?[0])));
         let places: Vec<_> = places.collect();
         for &(_, x) in &places {
             self.svg.path(&[[x, TOP], [x, HEIGHT - BOTTOM]], INK, true);
@@ -258,23 +223,14 @@ mod tests {
     use super::{Scale, legend_rows};
 
     fn labels(scale: Scale) -> Vec<String> {
-        scale
-            .ticks(6.0)
-            .into_iter()
-            .map(|(_, label)| label)
-            .collect()
+        scale.ticks(6.0).into_iter().map(|(_, label)| label).collect()
     }
 
     #[test]
     fn ticks_are_round_numbers_inside_the_axis() {
         let tenths = Scale::over([-0.21, 0.53], false, 0.0);
         assert_eq!(labels(tenths), ["-0.2", "0.0", "0.2", "0.4"]);
-        assert_eq!(
-            labels(Scale::over([0.0, 700.0], false, 0.0))
-                .last()
-                .unwrap(),
-            "600"
-        );
+        assert_eq!(labels(Scale::over([0.0, 700.0], false, 0.0)).last().unwrap(), "600");
         let powers = Scale::over([0.02, 18_000.0], true, 0.0);
         assert_eq!(labels(powers), ["0.01", "1", "100", "10000"]);
     }
@@ -284,13 +240,7 @@ mod tests {
         let log = Scale::over([0.0, -3.0, f64::NAN, 1.0, 100.0], true, 0.0);
         assert_eq!((log.start(), log.share(10.0)), (0.1, Some(2.0 / 3.0)));
         assert_eq!(log.share(0.0), None);
-        for lonely in [
-            vec![],
-            vec![5.0],
-            vec![0.0],
-            vec![1e-300, 1e-300],
-            vec![-1e9],
-        ] {
+        for lonely in [vec![], vec![5.0], vec![0.0], vec![1e-300, 1e-300], vec![-1e9]] {
             let scale = Scale::over(lonely.clone(), false, 0.05);
             assert!(scale.to > scale.from, "{lonely:?}");
             assert!(!scale.ticks(6.0).is_empty(), "{lonely:?}");

@@ -35,10 +35,7 @@ pub(crate) struct Histogram<'a> {
 
 /// The bars as SVG.
 pub(crate) fn bars(bars: &Bars) -> String {
-    let values = bars
-        .series
-        .iter()
-        .flat_map(|(_, values)| values.iter().copied());
+    let values = bars.series.iter().flat_map(|(_, values)| values.iter().copied());
     // On a linear axis a bar means its length, so zero belongs to the axis.
     let zero = (!bars.log_y).then_some(0.0);
     let y = Scale::over(values.chain(zero), bars.log_y, 0.04);
@@ -49,11 +46,7 @@ pub(crate) fn bars(bars: &Bars) -> String {
         y: &bars.y_label,
         legend: bars.series.iter().map(|(name, _)| name.as_str()).collect(),
     };
-    let ticks = bars
-        .groups
-        .iter()
-        .enumerate()
-        .map(|(group, name)| (group as f64, name.clone()));
+    let ticks = bars.groups.iter().enumerate().map(|(group, name)| (group as f64, name.clone()));
     let mut axes = Axes::new(&labels, x, y, Some(ticks.collect()));
     let foot = zero.unwrap_or(y.start());
     let width = 0.8 / bars.series.len().max(1) as f64;
@@ -76,25 +69,15 @@ pub(crate) fn histogram(histogram: &Histogram<'_>) -> String {
     let x = Scale::over(marks.chain([counted.from, counted.to]), false, 0.02);
     let most = counted.counts.iter().max().copied().unwrap_or(0);
     let y = Scale::over([0.0, 1.05 * most.max(1) as f64], false, 0.0);
-    let labels = Labels {
-        title: &histogram.title,
-        x: &histogram.x_label,
-        y: "count",
-        legend: Vec::new(),
-    };
+    let labels =
+        Labels { title: &histogram.title, x: &histogram.x_label, y: "count", legend: Vec::new() };
     let mut axes = Axes::new(&labels, x, y, None);
     let width = (counted.to - counted.from) / counted.counts.len() as f64;
-    for (bin, &count) in counted
-        .counts
-        .iter()
-        .enumerate()
-        .filter(|(_, count)| **count > 0)
-    {
+    for (bin, &count) in counted.counts.iter().enumerate().filter(|(_, count)| **count > 0) {
         let left = counted.from + width * bin as f64;
         let corners = axes.at(left, 0.0).zip(axes.at(left + width, count as f64));
         if let Some(([x0, y0], [x1, y1])) = corners {
-            axes.svg
-                .bar([x0, y0], [(x1 - 0.6).max(x0 + 0.6), y1], series(0));
+            axes.svg.bar([x0, y0], [(x1 - 0.6).max(x0 + 0.6), y1], series(0));
         }
     }
     axes.mark_x(&histogram.marks);
@@ -118,9 +101,8 @@ impl Counts {
     fn of(values: &[f64], bins: usize) -> Self {
         let bins = bins.max(1);
         let finite = || values.iter().copied().filter(|value| value.is_finite());
-        let (mut from, mut to) = finite().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| {
-            (a.min(v), b.max(v))
-        });
+        let (mut from, mut to) =
+            finite().fold((f64::INFINITY, f64::NEG_INFINITY), |(a, b), v| (a.min(v), b.max(v)));
         if from > to {
             (from, to) = (0.0, 1.0);
         } else if from == to {
@@ -160,14 +142,7 @@ mod tests {
         });
         let height = |index: usize| -> f64 {
             let bar = svg.split("<rect x=").nth(index + 1).unwrap();
-            bar.split("height=\"")
-                .nth(1)
-                .unwrap()
-                .split('"')
-                .next()
-                .unwrap()
-                .parse()
-                .unwrap()
+            bar.split("height=\"").nth(1).unwrap().split('"').next().unwrap().parse().unwrap()
         };
         assert!((height(1) / height(0) - 2.0).abs() < 1e-3);
         assert_eq!(svg.matches("<rect x=").count(), 2, "a NaN has no bar");

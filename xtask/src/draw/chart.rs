@@ -50,11 +50,7 @@ pub(crate) fn chart(chart: &Chart) -> String {
         title: &chart.title,
         x: &chart.x_label,
         y: &chart.y_label,
-        legend: chart
-            .series
-            .iter()
-            .map(|series| series.name.as_str())
-            .collect(),
+        legend: chart.series.iter().map(|series| series.name.as_str()).collect(),
     };
     let x = Scale::over(points().map(|point| point.0), false, 0.02);
     let y = Scale::over(points().map(|point| point.1), chart.log_y, 0.04);
@@ -87,54 +83,23 @@ mod tests {
             x_label: "turn".into(),
             y_label: "error".into(),
             log_y,
-            series: vec![Series {
-                name: "one".into(),
-                points: points.to_vec(),
-                mark,
-            }],
+            series: vec![Series { name: "one".into(), points: points.to_vec(), mark }],
         })
     }
 
     #[test]
     fn a_point_that_cannot_be_drawn_breaks_the_line() {
-        let points = [
-            (0.0, 1.0),
-            (1.0, 2.0),
-            (2.0, f64::NAN),
-            (3.0, 4.0),
-            (4.0, 5.0),
-        ];
-        assert_eq!(
-            picture(false, &points, Mark::Line)
-                .matches("<polyline")
-                .count(),
-            2
-        );
+        let points = [(0.0, 1.0), (1.0, 2.0), (2.0, f64::NAN), (3.0, 4.0), (4.0, 5.0)];
+        assert_eq!(picture(false, &points, Mark::Line).matches("<polyline").count(), 2);
         let with_zero = [(0.0, 1.0), (1.0, 0.0), (2.0, 10.0)];
-        assert_eq!(
-            picture(true, &with_zero, Mark::Dots)
-                .matches("<circle")
-                .count(),
-            2
-        );
-        assert_eq!(
-            picture(false, &with_zero, Mark::Dots)
-                .matches("<circle")
-                .count(),
-            3
-        );
+        assert_eq!(picture(true, &with_zero, Mark::Dots).matches("<circle").count(), 2);
+        assert_eq!(picture(false, &with_zero, Mark::Dots).matches("<circle").count(), 3);
     }
 
     #[test]
     fn higher_values_lie_higher_and_text_is_escaped() {
         let svg = picture(false, &[(0.0, 0.0), (1.0, 1.0)], Mark::Line);
-        let points = svg
-            .split("points=\"")
-            .nth(1)
-            .unwrap()
-            .split('"')
-            .next()
-            .unwrap();
+        let points = svg.split("points=\"").nth(1).unwrap().split('"').next().unwrap();
         let y = |index: usize| -> f64 {
             let pair = points.split(' ').nth(index).unwrap();
             pair.split(',').nth(1).unwrap().parse().unwrap()

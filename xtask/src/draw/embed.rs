@@ -30,9 +30,7 @@ mod tests {
 
     #[test]
     fn the_vectors_of_rfc_4648() {
-        let encoded = [
-            "", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy",
-        ];
+        let encoded = ["", "Zg==", "Zm8=", "Zm9v", "Zm9vYg==", "Zm9vYmE=", "Zm9vYmFy"];
         for (length, expected) in encoded.into_iter().enumerate() {
             assert_eq!(base64(&b"foobar"[..length]), expected);
         }

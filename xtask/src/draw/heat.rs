@@ -22,12 +22,7 @@ pub(crate) struct Heat {
 
 impl Default for Heat {
     fn default() -> Self {
-        Self {
-            gamma: 1.0,
-            range: None,
-            upscale: 1,
-            window: None,
-        }
+        Self { gamma: 1.0, range: None, upscale: 1, window: None }
     }
 }
 
@@ -37,43 +32,22 @@ impl Default for Heat {
 /// # Errors
 /// A window that holds no cell.
 pub(crate) fn heat(field: &Grid<f64>, style: &Heat) -> anyhow::Result<RgbImage> {
-    let [columns, rows] = style
-        .window
-        .unwrap_or([(0, field.width()), (0, field.height())]);
+    let [columns, rows] = style.window.unwrap_or([(0, field.width()), (0, field.height())]);
     let clip = |(from, to): (usize, usize), size: usize| (from.min(size), to.min(size));
     let (columns, rows) = (clip(columns, field.width()), clip(rows, field.height()));
-    let (width, height) = (
-        columns.1.saturating_sub(columns.0),
-        rows.1.saturating_sub(rows.0),
-    );
+    let (width, height) = (columns.1.saturating_sub(columns.0), rows.1.saturating_sub(rows.0));
     let cells = field.rows().skip(rows.0).take(height);
-    let cells = cells
-        .flat_map(|row| row[columns.0..].iter().take(width))
-        .copied()
-        .collect();
+    let cells = cells.flat_map(|row| row[columns.0..].iter().take(width)).copied().collect();
     let shown = reduce(&Grid::new(width, height, cells)?, f64::max);
 
-    let finite = || {
-        shown
-            .cells()
-            .iter()
-            .copied()
-            .filter(|value| value.is_finite())
-    };
+    let finite = || shown.cells().iter().copied().filter(|value| value.is_finite());
     let (low, high) = style.range.unwrap_or_else(|| {
-        (
-            finite().fold(f64::INFINITY, f64::min),
-            finite().fold(f64::NEG_INFINITY, f64::max),
-        )
+        (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max))
     });
     let image = paint(&shown, |&value| {
         if value.is_finite() {
             // A field of one value is all dark.
-            let share = if high > low {
-                (value - low) / (high - low)
-            } else {
-                0.0
-            };
+            let share = if high > low { (value - low) / (high - low) } else { 0.0 };
             ramp(share.clamp(0.0, 1.0).powf(style.gamma))
         } else {
             UNKNOWN
@@ -98,46 +72,26 @@ mod tests {
         assert_eq!(*plain.get_pixel(1, 1), ramp(0.25));
         assert_eq!(*plain.get_pixel(2, 1), ramp(1.0));
         assert_eq!(*plain.get_pixel(0, 0), UNKNOWN);
-        let lifted = Heat {
-            gamma: 0.5,
-            ..Heat::default()
-        };
+        let lifted = Heat { gamma: 0.5, ..Heat::default() };
         assert_eq!(*heat(&field(), &lifted).unwrap().get_pixel(1, 1), ramp(0.5));
     }
 
     #[test]
     fn a_window_crops_before_it_scales() {
-        let style = Heat {
-            upscale: 4,
-            window: Some([(1, 9), (0, 1)]),
-            ..Heat::default()
-        };
+        let style = Heat { upscale: 4, window: Some([(1, 9), (0, 1)]), ..Heat::default() };
         let image = heat(&field(), &style).unwrap();
         assert_eq!(image.dimensions(), (8, 4));
-        assert_eq!(
-            *image.get_pixel(3, 3),
-            ramp(0.0),
-            "the least value in the window"
-        );
+        assert_eq!(*image.get_pixel(3, 3), ramp(0.0), "the least value in the window");
         assert_eq!(*image.get_pixel(4, 0), ramp(1.0));
-        let empty = Heat {
-            window: Some([(3, 9), (0, 1)]),
-            ..Heat::default()
-        };
+        let empty = Heat { window: Some([(3, 9), (0, 1)]), ..Heat::default() };
         assert!(heat(&field(), &empty).is_err());
     }
 
     #[test]
     fn a_flat_field_and_a_field_of_nothing_are_pictures_too() {
         let flat = Grid::filled(2, 1, 7.0).unwrap();
-        assert_eq!(
-            *heat(&flat, &Heat::default()).unwrap().get_pixel(0, 0),
-            ramp(0.0)
-        );
+        assert_eq!(*heat(&flat, &Heat::default()).unwrap().get_pixel(0, 0), ramp(0.0));
         let nothing = Grid::filled(2, 1, f64::NAN).unwrap();
-        assert_eq!(
-            *heat(&nothing, &Heat::default()).unwrap().get_pixel(0, 0),
-            UNKNOWN
-        );
+        assert_eq!(*heat(&nothing, &Heat::default()).unwrap().get_pixel(0, 0), UNKNOWN);
     }
 }

@@ -29,16 +29,11 @@ pub(crate) fn overlay(
     source: &OccupancyGrid,
     target_from_source: Se2,
 ) -> anyhow::Result<RgbImage> {
-    ensure!(
-        target_from_source.is_finite(),
-        "the transform {target_from_source:?} is not finite"
-    );
+    ensure!(target_from_source.is_finite(), "the transform {target_from_source:?} is not finite");
     let lattice = target.frame();
-    let corners = known_corners(target).into_iter().chain(
-        known_corners(source)
-            .into_iter()
-            .map(|corner| target_from_source * corner),
-    );
+    let corners = known_corners(target)
+        .into_iter()
+        .chain(known_corners(source).into_iter().map(|corner| target_from_source * corner));
     let cells = corners.map(|corner| lattice.lattice_cell(corner));
     let (low, high) = cells
         .map(|cell| (cell, cell))
@@ -50,11 +45,8 @@ pub(crate) fn overlay(
         })
         .context("neither map has a known cell to draw")?;
     let margin = 2;
-    let size = [0, 1].map(|axis| {
-        high[axis]
-            .saturating_sub(low[axis])
-            .saturating_add(1 + 2 * margin)
-    });
+    let size =
+        [0, 1].map(|axis| high[axis].saturating_sub(low[axis]).saturating_add(1 + 2 * margin));
     ensure!(
         size[0].saturating_mul(size[1]) <= MAX_OVERLAY_CELLS,
         "the maps span {} × {} cells together, too many to draw",
@@ -69,14 +61,12 @@ pub(crate) fn overlay(
         *cell |= other;
     }
     let walls = SOURCE_BIT | TARGET_BIT;
-    Ok(paint(&reduce(&bits, |a, b| a | b), |&bits| {
-        match bits & walls {
-            0 if bits & FREE_BIT != 0 => FREE,
-            0 => BLANK,
-            SOURCE_BIT => SOURCE_WALL,
-            TARGET_BIT => TARGET_WALL,
-            _ => COMMON_WALL,
-        }
+    Ok(paint(&reduce(&bits, |a, b| a | b), |&bits| match bits & walls {
+        0 if bits & FREE_BIT != 0 => FREE,
+        0 => BLANK,
+        SOURCE_BIT => SOURCE_WALL,
+        TARGET_BIT => TARGET_WALL,
+        _ => COMMON_WALL,
     }))
 }
 
@@ -93,16 +83,8 @@ fn seen_as(
     let cells = warp_nearest(map.cells(), map.frame(), frame, size, motion, outside)?;
     let thresholds = ClassThresholds::default();
     Ok(cells.map(|&cell| {
-        let free = if thresholds.is_free(cell) {
-            FREE_BIT
-        } else {
-            0
-        };
-        let wall = if thresholds.is_occupied(cell) {
-            wall
-        } else {
-            0
-        };
+        let free = if thresholds.is_free(cell) { FREE_BIT } else { 0 };
+        let wall = if thresholds.is_occupied(cell) { wall } else { 0 };
         free | wall
     }))
 }
@@ -114,10 +96,7 @@ fn known_corners(map: &OccupancyGrid) -> Vec<Point2<f64>> {
             .into_iter()
             .flat_map(move |column| [low.row, high.row].map(move |row| CellIndex { column, row }))
     });
-    let centres = corners
-        .into_iter()
-        .flatten()
-        .map(|index| map.frame().cell_centre(index));
+    let centres = corners.into_iter().flatten().map(|index| map.frame().cell_centre(index));
     centres.collect()
 }
 

@@ -4,9 +4,8 @@ use image::Rgb;
 
 /// Series colours: those of Okabe and Ito, *Color universal design*, without yellow, which a white
 /// panel swallows.
-const SERIES: [&str; 7] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000",
-];
+const SERIES: [&str; 7] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#000000"];
 
 /// Axes, ticks and text.
 pub(crate) const INK: &str = "#333333";

@@ -45,11 +45,7 @@ pub(crate) struct Plan<'a> {
 pub(crate) fn plan(plan: &Plan<'_>) -> anyhow::Result<String> {
     let background = plan.background.map(crop_known).transpose()?;
     let sheet = Sheet::around(corners(plan, background.as_ref()))?;
-    let legend = plan
-        .layers
-        .iter()
-        .filter(|layer| !layer.name.is_empty())
-        .count();
+    let legend = plan.layers.iter().filter(|layer| !layer.name.is_empty()).count();
     let height = sheet.height + LEGEND_ROW * legend as f64 + MARGIN;
     let mut svg = Svg::new(sheet.width.max(240.0), height);
     svg.title([MARGIN, 18.0], &plan.title);
@@ -60,22 +56,13 @@ pub(crate) fn plan(plan: &Plan<'_>) -> anyhow::Result<String> {
     for (index, layer) in plan.layers.iter().enumerate() {
         let colour = series(index);
         for &[start, end] in &layer.lines {
-            draw_line(
-                &mut svg,
-                [sheet.at(start), sheet.at(end)],
-                layer.arrows,
-                colour,
-            );
+            draw_line(&mut svg, [sheet.at(start), sheet.at(end)], layer.arrows, colour);
         }
         for &point in &layer.points {
             svg.dot(sheet.at(point), 4.0, colour);
         }
         if !layer.name.is_empty() {
-            svg.bar(
-                [MARGIN, legend_y - 4.0],
-                [MARGIN + 14.0, legend_y + 4.0],
-                colour,
-            );
+            svg.bar([MARGIN, legend_y - 4.0], [MARGIN + 14.0, legend_y + 4.0], colour);
             svg.text([MARGIN + 20.0, legend_y + 4.0], Anchor::Start, &layer.name);
             legend_y += LEGEND_ROW;
         }
@@ -114,15 +101,12 @@ struct Sheet {
 impl Sheet {
     fn around(places: Vec<Point2<f64>>) -> anyhow::Result<Self> {
         let bounds =
-            places
-                .into_iter()
-                .map(|place| (place, place))
-                .reduce(|(low, high), (p, _)| {
-                    (
-                        Point2::new(low.x.min(p.x), low.y.min(p.y)),
-                        Point2::new(high.x.max(p.x), high.y.max(p.y)),
-                    )
-                });
+            places.into_iter().map(|place| (place, place)).reduce(|(low, high), (p, _)| {
+                (
+                    Point2::new(low.x.min(p.x), low.y.min(p.y)),
+                    Point2::new(high.x.max(p.x), high.y.max(p.y)),
+                )
+            });
         let Some((low, high)) = bounds else {
             anyhow::bail!("a plan needs a wall, a point or a known cell to draw");
         };
@@ -146,11 +130,7 @@ impl Sheet {
 }
 
 fn draw_line(svg: &mut Svg, [from, to]: [[f64; 2]; 2], arrow: bool, colour: &str) {
-    if from
-        .iter()
-        .chain(&to)
-        .any(|coordinate| !coordinate.is_finite())
-    {
+    if from.iter().chain(&to).any(|coordinate| !coordinate.is_finite()) {
         return;
     }
     svg.line(from, to, colour, 2.0);
@@ -159,10 +139,7 @@ fn draw_line(svg: &mut Svg, [from, to]: [[f64; 2]; 2], arrow: bool, colour: &str
     if arrow && length > 0.0 {
         let (dx, dy) = (dx / length, dy / length);
         for side in [-1.0, 1.0] {
-            let back = [
-                to[0] - 8.0 * dx - side * 4.0 * dy,
-                to[1] - 8.0 * dy + side * 4.0 * dx,
-            ];
+            let back = [to[0] - 8.0 * dx - side * 4.0 * dy, to[1] - 8.0 * dy + side * 4.0 * dx];
             svg.line(to, back, colour, 2.0);
         }
     }
@@ -197,19 +174,13 @@ fn draw_map(svg: &mut Svg, sheet: &Sheet, map: &OccupancyGrid) -> anyhow::Result
 fn draw_scale_bar(svg: &mut Svg, sheet: &Sheet) {
     let fifth = SIDE / 5.0 / sheet.pixels_per_metre;
     let power = 10_f64.powf(fifth.log10().floor());
-    let fits = [5.0, 2.0, 1.0]
-        .into_iter()
-        .find(|factor| factor * power <= fifth * 1.001);
+    let fits = [5.0, 2.0, 1.0].into_iter().find(|factor| factor * power <= fifth * 1.001);
     let metres = fits.unwrap_or(1.0) * power;
     let right = sheet.width.max(240.0) - MARGIN;
     let left = right - metres * sheet.pixels_per_metre;
     let y = sheet.height;
     svg.line([left, y], [right, y], INK, 2.0);
-    svg.text(
-        [(left + right) / 2.0, y + 16.0],
-        Anchor::Middle,
-        &format!("{metres} m"),
-    );
+    svg.text([(left + right) / 2.0, y + 16.0], Anchor::Middle, &format!("{metres} m"));
 }
 
 #[cfg(test)]
@@ -227,11 +198,7 @@ mod tests {
     }
 
     fn drawn(background: Option<&OccupancyGrid>, layers: Vec<Layer>) -> anyhow::Result<String> {
-        plan(&Plan {
-            title: "Walls".into(),
-            background,
-            layers,
-        })
+        plan(&Plan { title: "Walls".into(), background, layers })
     }
 
     #[test]
@@ -250,48 +217,23 @@ mod tests {
         let map = OccupancyGrid::from_ascii(frame, "#...\n#...").unwrap();
         let svg = drawn(Some(&map), vec![wall(0.0, 0.0, -2.0, 0.0)]).unwrap();
         let attribute = |name: &str| -> Vec<f64> {
-            let text = svg
-                .split(name)
-                .nth(1)
-                .unwrap()
-                .split([')', '"'])
-                .next()
-                .unwrap();
-            text.split(' ')
-                .map(|number| number.parse().unwrap())
-                .collect()
+            let text = svg.split(name).nth(1).unwrap().split([')', '"']).next().unwrap();
+            text.split(' ').map(|number| number.parse().unwrap()).collect()
         };
-        let [a, b, c, d, e, f] = attribute("matrix(")[..] else {
-            panic!("six numbers")
-        };
+        let [a, b, c, d, e, f] = attribute("matrix(")[..] else { panic!("six numbers") };
         let bottom_left = [2.0 * c + e, 2.0 * d + f];
         let (start, end) = (attribute(" x1=\""), attribute(" x2=\""));
-        assert!(
-            (bottom_left[0] - start[0]).abs() < 0.02,
-            "{bottom_left:?} {start:?}"
-        );
-        assert!(
-            (e - end[0]).abs() < 0.02,
-            "the grid's y axis points to minus x: {e} {end:?}"
-        );
-        assert!(
-            a.abs() < 1e-6 && b < 0.0,
-            "the grid's x axis points up: {a} {b}"
-        );
+        assert!((bottom_left[0] - start[0]).abs() < 0.02, "{bottom_left:?} {start:?}");
+        assert!((e - end[0]).abs() < 0.02, "the grid's y axis points to minus x: {e} {end:?}");
+        assert!(a.abs() < 1e-6 && b < 0.0, "the grid's x axis points up: {a} {b}");
     }
 
     #[test]
     fn an_arrow_has_a_head_and_a_dead_line_is_left_out() {
-        let arrow = Layer {
-            arrows: true,
-            ..wall(0.0, 0.0, 1.0, 1.0)
-        };
+        let arrow = Layer { arrows: true, ..wall(0.0, 0.0, 1.0, 1.0) };
         let plain = drawn(None, vec![wall(0.0, 0.0, 1.0, 1.0)]).unwrap();
         let heads = drawn(None, vec![arrow, wall(0.0, f64::NAN, 1.0, 0.0)]).unwrap();
-        assert_eq!(
-            heads.matches("<line").count(),
-            plain.matches("<line").count() + 2
-        );
+        assert_eq!(heads.matches("<line").count(), plain.matches("<line").count() + 2);
         assert!(!heads.contains("NaN"));
         assert!(plain.contains(" m</text>"), "a scale bar");
         assert!(drawn(None, Vec::new()).is_err());

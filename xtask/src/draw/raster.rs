@@ -36,23 +36,13 @@ pub(crate) fn crop_known(map: &OccupancyGrid) -> anyhow::Result<OccupancyGrid> {
     let Some((low, high)) = known_box(map) else {
         return Ok(map.clone());
     };
-    let first = [
-        low.column.saturating_sub(MARGIN),
-        low.row.saturating_sub(MARGIN),
-    ];
-    let end = [
-        (high.column + MARGIN + 1).min(map.width()),
-        (high.row + MARGIN + 1).min(map.height()),
-    ];
+    let first = [low.column.saturating_sub(MARGIN), low.row.saturating_sub(MARGIN)];
+    let end =
+        [(high.column + MARGIN + 1).min(map.width()), (high.row + MARGIN + 1).min(map.height())];
     let rows = map.cells().rows().skip(first[1]).take(end[1] - first[1]);
-    let cells = rows
-        .flat_map(|row| &row[first[0]..end[0]])
-        .copied()
-        .collect();
+    let cells = rows.flat_map(|row| &row[first[0]..end[0]]).copied().collect();
     let grid = Grid::new(end[0] - first[0], end[1] - first[1], cells)?;
-    let frame = map
-        .frame()
-        .shifted(i64::try_from(first[0])?, i64::try_from(first[1])?);
+    let frame = map.frame().shifted(i64::try_from(first[0])?, i64::try_from(first[1])?);
     Ok(OccupancyGrid::new(frame, grid))
 }
 
@@ -61,14 +51,8 @@ pub(super) fn known_box(map: &OccupancyGrid) -> Option<(CellIndex, CellIndex)> {
     let known = map.cells().indexed().filter(|(_, cell)| cell.is_known());
     known.fold(None, |corners, (at, _)| {
         let (low, high) = corners.unwrap_or((at, at));
-        let low = CellIndex {
-            column: low.column.min(at.column),
-            row: low.row.min(at.row),
-        };
-        let high = CellIndex {
-            column: high.column.max(at.column),
-            row: high.row.max(at.row),
-        };
+        let low = CellIndex { column: low.column.min(at.column), row: low.row.min(at.row) };
+        let high = CellIndex { column: high.column.max(at.column), row: high.row.max(at.row) };
         Some((low, high))
     })
 }
@@ -76,10 +60,7 @@ pub(super) fn known_box(map: &OccupancyGrid) -> Option<(CellIndex, CellIndex)> {
 /// Square blocks of cells as one cell, so that no side exceeds [`MAX_SIDE`].
 pub(super) fn reduce<T: Copy>(grid: &Grid<T>, merge: impl Fn(T, T) -> T) -> Grid<T> {
     let factor = grid.width().max(grid.height()).div_ceil(MAX_SIDE);
-    let (width, height) = (
-        grid.width().div_ceil(factor),
-        grid.height().div_ceil(factor),
-    );
+    let (width, height) = (grid.width().div_ceil(factor), grid.height().div_ceil(factor));
     let corner = |position: usize| CellIndex {
         column: position % width * factor,
         row: position / width * factor,
@@ -87,12 +68,9 @@ pub(super) fn reduce<T: Copy>(grid: &Grid<T>, merge: impl Fn(T, T) -> T) -> Grid
     let block = |first: CellIndex| {
         let rows = first.row..(first.row + factor).min(grid.height());
         let columns = first.column..(first.column + factor).min(grid.width());
-        rows.flat_map(move |row| grid.row(row)[columns.clone()].iter().copied())
-            .reduce(&merge)
+        rows.flat_map(move |row| grid.row(row)[columns.clone()].iter().copied()).reduce(&merge)
     };
-    let cells = (0..width * height)
-        .filter_map(|position| block(corner(position)))
-        .collect();
+    let cells = (0..width * height).filter_map(|position| block(corner(position))).collect();
     Grid::new(width, height, cells).expect("every block holds its corner cell")
 }
 
@@ -142,12 +120,7 @@ pub(crate) fn side_by_side(images: &[RgbImage], gap: u32) -> RgbImage {
 pub(crate) fn png(image: &RgbImage) -> anyhow::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::NoFilter)
-        .write_image(
-            image,
-            image.width(),
-            image.height(),
-            image::ExtendedColorType::Rgb8,
-        )
+        .write_image(image, image.width(), image.height(), image::ExtendedColorType::Rgb8)
         .with_context(|| format!("a picture of {} × {} pixels", image.width(), image.height()))?;
     Ok(bytes)
 }
@@ -175,11 +148,7 @@ mod tests {
     #[test]
     fn a_thin_wall_survives_a_large_map() {
         let mut big = Grid::filled(2500, 4, Occupancy::FREE).unwrap();
-        *big.get_mut(CellIndex {
-            column: 1201,
-            row: 2,
-        })
-        .unwrap() = Occupancy::OCCUPIED;
+        *big.get_mut(CellIndex { column: 1201, row: 2 }).unwrap() = Occupancy::OCCUPIED;
         let image = occupancy(&OccupancyGrid::new(*map(".").frame(), big));
         assert_eq!(image.dimensions(), (834, 2));
         assert!(image.get_pixel(400, 1).0[0] < 60);
@@ -192,14 +161,8 @@ mod tests {
         assert_eq!((part.width(), part.height()), (5, 4));
         for (column, expected) in [(1, '?'), (2, '.'), (3, '#'), (4, '?')] {
             let place = part.frame().cell_centre(CellIndex { column, row: 2 });
-            assert_eq!(
-                whole.cell_at(place).map(|cell| cell.column),
-                Some(column + 2)
-            );
-            assert_eq!(
-                part.to_ascii().lines().nth(1).unwrap().chars().nth(column),
-                Some(expected)
-            );
+            assert_eq!(whole.cell_at(place).map(|cell| cell.column), Some(column + 2));
+            assert_eq!(part.to_ascii().lines().nth(1).unwrap().chars().nth(column), Some(expected));
         }
         let unknown = map("???\n???");
         assert_eq!(crop_known(&unknown).unwrap(), unknown);
@@ -210,14 +173,8 @@ mod tests {
         let tile = RgbImage::from_pixel(3, 2, COMMON_WALL);
         let row = side_by_side(&[tile.clone(), enlarge(&tile, 2)], 1);
         assert_eq!(row.dimensions(), (10, 4));
-        assert_eq!(
-            (*row.get_pixel(2, 1), *row.get_pixel(3, 1)),
-            (COMMON_WALL, BLANK)
-        );
-        assert_eq!(
-            (*row.get_pixel(0, 3), *row.get_pixel(9, 3)),
-            (BLANK, COMMON_WALL)
-        );
+        assert_eq!((*row.get_pixel(2, 1), *row.get_pixel(3, 1)), (COMMON_WALL, BLANK));
+        assert_eq!((*row.get_pixel(0, 3), *row.get_pixel(9, 3)), (BLANK, COMMON_WALL));
         let wide = side_by_side(&[enlarge(&tile, 300), enlarge(&tile, 300)], 0);
         assert_eq!(wide.dimensions(), (1000, 334));
     }

@@ -36,9 +36,7 @@ pub(crate) struct Svg {
 
 impl Svg {
     pub(crate) fn new(width: f64, height: f64) -> Self {
-        let mut svg = Self {
-            body: String::new(),
-        };
+        let mut svg = Self { body: String::new() };
         svg.push(format_args!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {w} {h}\" width=\"{w}\" \
              height=\"{h}\" font-family=\"system-ui, sans-serif\" font-size=\"12\" role=\"img\">\n\
@@ -90,11 +88,7 @@ impl Svg {
         for [x, y] in points {
             let _ = write!(positions, "{},{} ", round(*x), round(*y));
         }
-        let dashes = if dashed {
-            " stroke-dasharray=\"6 4\""
-        } else {
-            ""
-        };
+        let dashes = if dashed { " stroke-dasharray=\"6 4\"" } else { "" };
         self.push(format_args!(
             "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.8\"\
              {dashes}/>",
@@ -114,21 +108,12 @@ impl Svg {
 
     /// A text in bold.
     pub(crate) fn title(&mut self, at: [f64; 2], text: &str) {
-        self.styled_text(
-            at,
-            Anchor::Start,
-            text,
-            " font-weight=\"600\" font-size=\"13\"",
-        );
+        self.styled_text(at, Anchor::Start, text, " font-weight=\"600\" font-size=\"13\"");
     }
 
     /// A text that reads upwards.
     pub(crate) fn upward_text(&mut self, at: [f64; 2], text: &str) {
-        let turn = format!(
-            " transform=\"rotate(-90 {} {})\"",
-            round(at[0]),
-            round(at[1])
-        );
+        let turn = format!(" transform=\"rotate(-90 {} {})\"", round(at[0]), round(at[1]));
         self.styled_text(at, Anchor::Middle, text, &turn);
     }
 
@@ -166,10 +151,7 @@ mod tests {
 
     #[test]
     fn text_cannot_leave_its_element() {
-        assert_eq!(
-            escape("a<b & \"c\" 'd'>"),
-            "a&lt;b &amp; &quot;c&quot; &#39;d&#39;&gt;"
-        );
+        assert_eq!(escape("a<b & \"c\" 'd'>"), "a&lt;b &amp; &quot;c&quot; &#39;d&#39;&gt;");
         let mut svg = Svg::new(10.0, 10.0);
         svg.text([0.0, -0.001], Anchor::Start, "</text><script>");
         let svg = svg.finish();

@@ -28,11 +28,7 @@ mod tests {
 
     #[test]
     fn only_what_needs_quotes_has_them() {
-        let rows = [
-            vec!["1.5", "a, b"],
-            vec!["say \"no\"", "two\nlines"],
-            vec!["", "±"],
-        ];
+        let rows = [vec!["1.5", "a, b"], vec!["say \"no\"", "two\nlines"], vec!["", "±"]];
         let expected = "x,\"y,z\"\n1.5,\"a, b\"\n\"say \"\"no\"\"\",\"two\nlines\"\n,±\n";
         assert_eq!(csv(&["x", "y,z"], &rows), expected);
     }

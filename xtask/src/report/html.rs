@@ -26,11 +26,7 @@ pub(crate) fn html(report: &Report) -> String {
 
 fn info(info: &[(String, String)]) -> String {
     let items = info.iter().map(|(name, value)| {
-        format!(
-            "<div><dt>{}</dt><dd>{}</dd></div>\n",
-            escape(name),
-            escape(value)
-        )
+        format!("<div><dt>{}</dt><dd>{}</dd></div>\n", escape(name), escape(value))
     });
     format!("<dl>\n{}</dl>\n", items.collect::<String>())
 }
@@ -38,11 +34,7 @@ fn info(info: &[(String, String)]) -> String {
 fn contents(sections: &[Section]) -> String {
     let items = sections.iter().map(|section| {
         let failed = section.criteria.iter().any(|criterion| !criterion.pass);
-        let note = if failed {
-            " <strong class=\"fail\">✗ fails</strong>"
-        } else {
-            ""
-        };
+        let note = if failed { " <strong class=\"fail\">✗ fails</strong>" } else { "" };
         format!(
             "<li><a href=\"#{}\"><span class=\"id\">{}</span> {}</a>{note}</li>\n",
             anchor(&section.id),
@@ -50,10 +42,7 @@ fn contents(sections: &[Section]) -> String {
             escape(&section.title),
         )
     });
-    format!(
-        "<nav>\n<h2>Contents</h2>\n<ol>\n{}</ol>\n</nav>\n",
-        items.collect::<String>()
-    )
+    format!("<nav>\n<h2>Contents</h2>\n<ol>\n{}</ol>\n</nav>\n", items.collect::<String>())
 }
 
 fn criteria(report: &Report) -> String {
@@ -86,11 +75,7 @@ fn criteria(report: &Report) -> String {
 
 /// Class and words of an outcome: told by sign and word, not by colour alone.
 fn verdict(pass: bool) -> (&'static str, &'static str) {
-    if pass {
-        ("pass", "✓ pass")
-    } else {
-        ("fail", "✗ FAIL")
-    }
+    if pass { ("pass", "✓ pass") } else { ("fail", "✗ FAIL") }
 }
 
 fn section_html(section: &Section) -> String {
@@ -124,11 +109,7 @@ fn table(table: &Table) -> String {
     let numeric = table.numeric_columns();
     let row = |tag: &str, cells: &[String]| -> String {
         let cells = cells.iter().enumerate().map(|(index, cell)| {
-            let class = if numeric.get(index) == Some(&true) {
-                " class=\"n\""
-            } else {
-                ""
-            };
+            let class = if numeric.get(index) == Some(&true) { " class=\"n\"" } else { "" };
             format!("<{tag}{class}>{}</{tag}>", escape(cell))
         });
         format!("<tr>{}</tr>\n", cells.collect::<String>())
@@ -165,11 +146,7 @@ fn png_width(bytes: &[u8]) -> Option<u32> {
 /// `id` as the name of a place in the document.
 fn anchor(id: &str) -> String {
     let keep = |character: char| {
-        if character.is_alphanumeric() {
-            character
-        } else {
-            '-'
-        }
+        if character.is_alphanumeric() { character } else { '-' }
     };
     id.chars().map(keep).collect()
 }
@@ -183,14 +160,7 @@ mod tests {
     #[test]
     fn every_text_is_escaped() {
         let text = html(&sample::report());
-        for raw in [
-            "<b>bold",
-            "<log>",
-            "First <p>",
-            "<tags>",
-            "<seeds>",
-            "\"quoted\"",
-        ] {
+        for raw in ["<b>bold", "<log>", "First <p>", "<tags>", "<seeds>", "\"quoted\""] {
             assert!(!text.contains(raw), "{raw} stands as it came");
         }
         assert!(text.contains("A &lt;b&gt;bold&lt;/b&gt; &amp; &quot;quoted&quot; report"));

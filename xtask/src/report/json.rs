@@ -46,15 +46,7 @@ mod tests {
     #[test]
     fn entries_keep_their_order_and_null_what_is_not_finite() {
         let text = summary_json(&sample::report()).unwrap();
-        let fields = [
-            "id",
-            "experiment",
-            "paper",
-            "ours",
-            "interval",
-            "criterion",
-            "pass",
-        ];
+        let fields = ["id", "experiment", "paper", "ours", "interval", "criterion", "pass"];
         let positions = fields.map(|name| text.find(&format!("\"{name}\"")).unwrap());
         assert!(positions.is_sorted(), "{positions:?}");
 

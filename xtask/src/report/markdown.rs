@@ -25,16 +25,10 @@ fn section_text(section: &Section) -> String {
         text.push_str(&format!("\n{}\n", escape_tags(paragraph)));
     }
     for one in &section.tables {
-        text.push_str(&format!(
-            "\n{}\n\n{}",
-            inline(&one.caption),
-            markdown_table(one)
-        ));
+        text.push_str(&format!("\n{}\n\n{}", inline(&one.caption), markdown_table(one)));
     }
     for figure in &section.figures {
-        let caption = inline(&figure.caption)
-            .replace('[', "\\[")
-            .replace(']', "\\]");
+        let caption = inline(&figure.caption).replace('[', "\\[").replace(']', "\\]");
         text.push_str(&format!("\n![{caption}]({})\n", figure.path()));
     }
     text
@@ -67,9 +61,7 @@ pub(crate) fn markdown_table(table: &Table) -> String {
         format!("| {} |\n", cells.join(" | "))
     };
     let numeric = table.numeric_columns();
-    let rules = numeric
-        .iter()
-        .map(|&numeric| if numeric { "--:" } else { "---" });
+    let rules = numeric.iter().map(|&numeric| if numeric { "--:" } else { "---" });
     let rule = format!("| {} |\n", rules.collect::<Vec<_>>().join(" | "));
     let rows: String = table.rows.iter().map(|cells| row(cells)).collect();
     row(&table.header) + &rule + &rows
@@ -94,15 +86,9 @@ mod tests {
     #[test]
     fn cells_stay_in_their_table() {
         let text = markdown(&sample::report());
-        assert!(
-            text.contains("| #1 &lt;tags> | −0.5 ± 0.1 | a \\| b |\n"),
-            "{text}"
-        );
+        assert!(text.contains("| #1 &lt;tags> | −0.5 ± 0.1 | a \\| b |\n"), "{text}");
         assert!(text.contains("| #2 | – | two lines |\n"), "{text}");
-        assert!(
-            text.contains("| --- | --: | --- |\n"),
-            "numbers to the right: {text}"
-        );
+        assert!(text.contains("| --- | --: | --- |\n"), "numbers to the right: {text}");
     }
 
     #[test]

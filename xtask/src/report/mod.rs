@@ -67,9 +67,7 @@ impl Table {
         let column = |index: usize| self.rows.iter().filter_map(move |row| row.get(index));
         (0..self.header.len())
             .map(|index| {
-                let mut cells = column(index)
-                    .filter(|cell| !is_placeholder(cell))
-                    .peekable();
+                let mut cells = column(index).filter(|cell| !is_placeholder(cell)).peekable();
                 cells.peek().is_some() && cells.all(|cell| is_number(cell))
             })
             .collect()
@@ -133,10 +131,7 @@ impl Report {
 
     /// "14 of 15 criteria hold".
     pub(crate) fn verdict(&self) -> String {
-        let held = self
-            .criteria()
-            .filter(|(_, criterion)| criterion.pass)
-            .count();
+        let held = self.criteria().filter(|(_, criterion)| criterion.pass).count();
         format!("{held} of {} criteria hold", self.criteria().count())
     }
 }
@@ -154,10 +149,7 @@ pub(crate) fn number(value: f64) -> String {
     }
     // Rounding first, so that 9.9999 counts as 10.
     let scientific = format!("{value:.3e}");
-    let exponent = scientific
-        .rsplit('e')
-        .next()
-        .and_then(|power| power.parse::<i32>().ok());
+    let exponent = scientific.rsplit('e').next().and_then(|power| power.parse::<i32>().ok());
     match exponent.unwrap_or(0) {
         power @ -3..=3 => {
             let decimals = usize::try_from(3 - power).unwrap_or(0);
@@ -170,9 +162,7 @@ pub(crate) fn number(value: f64) -> String {
 
 /// "[low, high]", or nothing.
 fn interval(interval: Option<(f64, f64)>) -> String {
-    interval.map_or_else(String::new, |(low, high)| {
-        format!("[{}, {}]", number(low), number(high))
-    })
+    interval.map_or_else(String::new, |(low, high)| format!("[{}, {}]", number(low), number(high)))
 }
 
 fn is_placeholder(cell: &str) -> bool {
@@ -181,9 +171,8 @@ fn is_placeholder(cell: &str) -> bool {
 
 /// Whether the cell reads as a number, perhaps with a unit or a spread: "−3.2 ± 0.1 px", "97 %".
 fn is_number(cell: &str) -> bool {
-    let digits = cell
-        .trim()
-        .trim_start_matches(['+', '-', '−', '<', '>', '≤', '≥', '~', ' ', '[', '(']);
+    let digits =
+        cell.trim().trim_start_matches(['+', '-', '−', '<', '>', '≤', '≥', '~', ' ', '[', '(']);
     digits.starts_with(|character: char| character.is_ascii_digit()) || digits == "inf"
 }
 
@@ -196,10 +185,7 @@ mod sample {
         let text = |text: &str| text.to_owned();
         Report {
             title: text("A <b>bold</b> & \"quoted\" report"),
-            info: vec![(
-                text("command"),
-                text("cargo xtask compare --seed 1 | tee <log>"),
-            )],
+            info: vec![(text("command"), text("cargo xtask compare --seed 1 | tee <log>"))],
             sections: vec![Section {
                 id: text("X3a"),
                 title: text("Turns | angles"),
@@ -272,15 +258,10 @@ mod tests {
 
     #[test]
     fn a_column_of_numbers_is_recognised_past_its_gaps() {
-        let mut table = Table {
-            header: ["a", "b", "c"].map(str::to_owned).to_vec(),
-            ..Table::default()
-        };
-        for row in [
-            ["plan A", "−0.5 ± 0.1", ""],
-            ["plan B", "–", ""],
-            ["2 plans", "97 %", "-"],
-        ] {
+        let mut table =
+            Table { header: ["a", "b", "c"].map(str::to_owned).to_vec(), ..Table::default() };
+        for row in [["plan A", "−0.5 ± 0.1", ""], ["plan B", "–", ""], ["2 plans", "97 %", "-"]]
+        {
             table.rows.push(row.map(str::to_owned).to_vec());
         }
         assert_eq!(table.numeric_columns(), [false, true, false]);
@@ -288,14 +269,9 @@ mod tests {
 
     #[test]
     fn blank_lines_separate_paragraphs() {
-        let section = Section {
-            analysis: "\none\nstill\n\n\n two \n\n".to_owned(),
-            ..Section::default()
-        };
-        assert_eq!(
-            section.paragraphs().collect::<Vec<_>>(),
-            ["one\nstill", "two"]
-        );
+        let section =
+            Section { analysis: "\none\nstill\n\n\n two \n\n".to_owned(), ..Section::default() };
+        assert_eq!(section.paragraphs().collect::<Vec<_>>(), ["one\nstill", "two"]);
     }
 
     #[test]

@@ -25,9 +25,7 @@ pub(crate) fn splice(
     ensure!(from <= to, "`{end}` stands before `{begin}`");
     let (head, tail) = (&document[..from], &document[to..]);
     let content = content.trim_matches('\n');
-    Ok(format!(
-        "{head}\n\nWritten by `{command}`:\n\n{content}\n\n{tail}"
-    ))
+    Ok(format!("{head}\n\nWritten by `{command}`:\n\n{content}\n\n{tail}"))
 }
 
 fn position_of(document: &str, marker: &str) -> anyhow::Result<usize> {
@@ -61,27 +59,13 @@ mod tests {
     #[test]
     fn an_error_names_the_marker_that_is_wrong() {
         for (document, complaint) in [
-            (
-                format!("text {END}"),
-                "`<!-- BEGIN: results -->` is missing",
-            ),
-            (
-                format!("{BEGIN} text"),
-                "`<!-- END: results -->` is missing",
-            ),
-            (
-                format!("{BEGIN}{BEGIN}{END}"),
-                "BEGIN: results -->` stands 2 times",
-            ),
-            (
-                format!("{BEGIN}{END}{END}{END}"),
-                "END: results -->` stands 3 times",
-            ),
+            (format!("text {END}"), "`<!-- BEGIN: results -->` is missing"),
+            (format!("{BEGIN} text"), "`<!-- END: results -->` is missing"),
+            (format!("{BEGIN}{BEGIN}{END}"), "BEGIN: results -->` stands 2 times"),
+            (format!("{BEGIN}{END}{END}{END}"), "END: results -->` stands 3 times"),
             (format!("{END}{BEGIN}"), "stands before"),
         ] {
-            let error = splice(&document, "results", "x", "y")
-                .unwrap_err()
-                .to_string();
+            let error = splice(&document, "results", "x", "y").unwrap_err().to_string();
             assert!(error.contains(complaint), "{document}: {error}");
         }
         let error = splice(&format!("{BEGIN}{END}"), "results", END, "y").unwrap_err();

@@ -20,10 +20,7 @@ pub(crate) fn write_all(report: &Report, out_dir: &Path) -> anyhow::Result<()> {
     for figure in figures() {
         let name = &figure.name;
         let plain = |byte: u8| byte.is_ascii_alphanumeric() || byte == b'-' || byte == b'_';
-        ensure!(
-            !name.is_empty() && name.bytes().all(plain),
-            "{name:?} is no name for a figure"
-        );
+        ensure!(!name.is_empty() && name.bytes().all(plain), "{name:?} is no name for a figure");
         ensure!(seen.insert(name), "two figures are called {name:?}");
     }
     for figure in figures() {
@@ -33,10 +30,7 @@ pub(crate) fn write_all(report: &Report, out_dir: &Path) -> anyhow::Result<()> {
         };
         write_file(&out_dir.join(figure.path()), bytes)?;
     }
-    write_file(
-        &out_dir.join("summary.json"),
-        summary_json(report)?.as_bytes(),
-    )?;
+    write_file(&out_dir.join("summary.json"), summary_json(report)?.as_bytes())?;
     write_file(&out_dir.join("report.md"), markdown(report).as_bytes())?;
     write_file(&out_dir.join("report.html"), html(report).as_bytes())
 }
@@ -75,18 +69,9 @@ mod tests {
             names.sort();
             names
         };
-        assert_eq!(
-            names(&out),
-            ["figures", "report.html", "report.md", "summary.json"]
-        );
-        assert_eq!(
-            names(&out.join("figures")),
-            ["x3a-map.png", "x3a-spread.svg"]
-        );
-        assert_eq!(
-            fs::read(out.join("figures/x3a-map.png")).unwrap(),
-            b"\x89PNG"
-        );
+        assert_eq!(names(&out), ["figures", "report.html", "report.md", "summary.json"]);
+        assert_eq!(names(&out.join("figures")), ["x3a-map.png", "x3a-spread.svg"]);
+        assert_eq!(fs::read(out.join("figures/x3a-map.png")).unwrap(), b"\x89PNG");
     }
 
     #[test]
@@ -97,11 +82,7 @@ mod tests {
             report.sections[0].figures[0].name = name.to_owned();
             assert!(write_all(&report, folder.path()).is_err(), "{name:?}");
         }
-        assert_eq!(
-            fs::read_dir(folder.path()).unwrap().count(),
-            0,
-            "nothing was written"
-        );
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0, "nothing was written");
     }
 
     #[test]

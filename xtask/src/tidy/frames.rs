@@ -18,9 +18,8 @@ pub(super) fn check(path: &str, text: &str, found: &mut Vec<String>) {
         let both = name.split_once("_from_");
         if !both.is_some_and(|(to, from)| !to.is_empty() && !from.is_empty()) {
             let number = line_number(code, position);
-            found.push(format!(
-                "{path}:{number}: `{name}: Se2` is not called `target_from_source`"
-            ));
+            found
+                .push(format!("{path}:{number}: `{name}: Se2` is not called `target_from_source`"));
         }
     }
 }
@@ -32,12 +31,9 @@ fn declared_name(before: &str) -> Option<&str> {
         rest = rest.strip_suffix(prefix).unwrap_or(rest);
     }
     let rest = rest.strip_suffix(": ")?;
-    let start = rest
-        .rfind(|c: char| !c.is_alphanumeric() && c != '_')
-        .map_or(0, |at| at + 1);
+    let start = rest.rfind(|c: char| !c.is_alphanumeric() && c != '_').map_or(0, |at| at + 1);
     let name = &rest[start..];
-    name.starts_with(|c: char| c.is_lowercase() || c == '_')
-        .then_some(name)
+    name.starts_with(|c: char| c.is_lowercase() || c == '_').then_some(name)
 }
 
 #[cfg(test)]
@@ -63,10 +59,7 @@ mod tests {
         ] {
             let found = found_in("a.rs", text);
             assert_eq!(found.len(), 1, "{text} gives {found:?}");
-            assert!(
-                found[0].contains(&format!("`{name}: Se2`")),
-                "{text} gives {found:?}"
-            );
+            assert!(found[0].contains(&format!("`{name}: Se2`")), "{text} gives {found:?}");
         }
         assert!(found_in("a.rs", "\n\nfn f(pose: Se2) {}")[0].starts_with("a.rs:3: "));
     }

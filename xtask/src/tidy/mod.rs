@@ -59,11 +59,7 @@ fn text_files(root: &Path, found: &mut Vec<String>) -> Vec<String> {
         };
         for entry in entries {
             let name = entry.file_name().to_string_lossy().into_owned();
-            let path = if folder.is_empty() {
-                name.clone()
-            } else {
-                format!("{folder}/{name}")
-            };
+            let path = if folder.is_empty() { name.clone() } else { format!("{folder}/{name}") };
             // Unlike the type of the entry, this follows a link.
             if entry.path().is_dir() {
                 if path != "target"
@@ -81,9 +77,7 @@ fn text_files(root: &Path, found: &mut Vec<String>) -> Vec<String> {
 }
 
 fn is_text(path: &str) -> bool {
-    let ending = Path::new(path)
-        .extension()
-        .and_then(|ending| ending.to_str());
+    let ending = Path::new(path).extension().and_then(|ending| ending.to_str());
     matches!(ending, Some("rs" | "md" | "toml" | "css")) || path.starts_with(".ci/")
 }
 
@@ -103,12 +97,8 @@ fn check_layout(path: &str, text: &str, found: &mut Vec<String>) {
 fn check_words(path: &str, text: &str, found: &mut Vec<String>) {
     for (number, line) in (1..).zip(text.lines()) {
         for machine in MACHINE_PATHS {
-            if stands_alone(line, machine, |c| {
-                c.is_alphanumeric() || "_-.~})".contains(c)
-            }) {
-                found.push(format!(
-                    "{path}:{number}: {machine} is a path of one machine"
-                ));
+            if stands_alone(line, machine, |c| c.is_alphanumeric() || "_-.~})".contains(c)) {
+                found.push(format!("{path}:{number}: {machine} is a path of one machine"));
             }
         }
         for word in LEFT_OVERS {
@@ -135,11 +125,7 @@ fn check_source(path: &str, text: &str, found: &mut Vec<String>) {
         found.push(format!("{path}: does not start with a line of `//!`"));
     }
     let lines = text.lines().count();
-    let limit = if path.ends_with("src/lib.rs") {
-        MAX_LIB_LINES
-    } else {
-        MAX_LINES
-    };
+    let limit = if path.ends_with("src/lib.rs") { MAX_LIB_LINES } else { MAX_LINES };
     if lines > limit {
         found.push(format!("{path}: {lines} lines, at most {limit}"));
     }
@@ -174,18 +160,13 @@ fn line_number(text: &str, position: usize) -> usize {
 /// Whether `path` is the manifest of a workspace member.
 fn is_member_manifest(path: &str) -> bool {
     let parts: Vec<&str> = path.split('/').collect();
-    matches!(
-        parts[..],
-        ["crates", _, "Cargo.toml"] | ["xtask", "Cargo.toml"]
-    )
+    matches!(parts[..], ["crates", _, "Cargo.toml"] | ["xtask", "Cargo.toml"])
 }
 
 /// Rules on a member of the workspace.
 fn check_member(root: &Path, path: &str, manifest: &str, found: &mut Vec<String>) {
     if !manifest.contains("[lints]\nworkspace = true") {
-        found.push(format!(
-            "{path}: does not inherit the lints of the workspace"
-        ));
+        found.push(format!("{path}: does not inherit the lints of the workspace"));
     }
     let readme = path.replace("Cargo.toml", "README.md");
     if path.starts_with("crates/") && !root.join(&readme).is_file() {
@@ -229,122 +210,35 @@ mod tests {
         let long = format!("//! Long.\n{}", "// line\n".repeat(400));
         let long_lib = format!("//! Long.\n{}", "// line\n".repeat(100));
         for (path, text, complaint) in [
-            (
-                "crates/a/src/b.rs",
-                "//! B.\npub pose: Se2,\n",
-                "b.rs:2: `pose: Se2` is not",
-            ),
-            (
-                "crates/a/src/b.rs",
-                "fn b() {}\n",
-                "b.rs: does not start with",
-            ),
-            (
-                "crates/a/src/b.rs",
-                long.as_str(),
-                "b.rs: 401 lines, at most 400",
-            ),
-            (
-                "crates/a/src/lib.rs",
-                long_lib.as_str(),
-                "lib.rs: 101 lines, at most 100",
-            ),
+            ("crates/a/src/b.rs", "//! B.\npub pose: Se2,\n", "b.rs:2: `pose: Se2` is not"),
+            ("crates/a/src/b.rs", "fn b() {}\n", "b.rs: does not start with"),
+            ("crates/a/src/b.rs", long.as_str(), "b.rs: 401 lines, at most 400"),
+            ("crates/a/src/lib.rs", long_lib.as_str(), "lib.rs: 101 lines, at most 100"),
             ("crates/a/src/utils.rs", "//! B.\n", "`utils` says nothing"),
-            (
-                "crates/a/src/common/mod.rs",
-                "//! B.\n",
-                "`common` says nothing",
-            ),
+            ("crates/a/src/common/mod.rs", "//! B.\n", "`common` says nothing"),
             ("xtask/src/helpers.rs", "//! B.\n", "`helpers` says nothing"),
-            (
-                "crates/a/src/manager.rs",
-                "//! B.\n",
-                "`manager` says nothing",
-            ),
+            ("crates/a/src/manager.rs", "//! B.\n", "`manager` says nothing"),
             ("crates/a/src/types.rs", "//! B.\n", "`types` says nothing"),
-            (
-                "crates/a/src/prelude.rs",
-                "//! B.\n",
-                "`prelude` says nothing",
-            ),
-            (
-                "crates/a/src/b.rs",
-                "//! B.\n#[allow(dead_code)]\n",
-                "b.rs:2: `allow` without",
-            ),
-            (
-                "crates/a/src/b.rs",
-                "//! B.\n#![allow(\n    unused,\n)]\n",
-                ":2: `allow` without",
-            ),
-            (
-                "crates/a/README.md",
-                "See /work/main.\n",
-                "README.md:1: /work is a path",
-            ),
-            (
-                "crates/a/src/b.rs",
-                "//! B.\n// \"/tmp/x\"\n",
-                "b.rs:2: /tmp/ is a path",
-            ),
-            (
-                "docs/b.md",
-                "file:///home/me\n",
-                "docs/b.md:1: /home/ is a path",
-            ),
-            (
-                "docs/b.md",
-                "two  \nlines\n",
-                "docs/b.md:1: trailing white space",
-            ),
+            ("crates/a/src/prelude.rs", "//! B.\n", "`prelude` says nothing"),
+            ("crates/a/src/b.rs", "//! B.\n#[allow(dead_code)]\n", "b.rs:2: `allow` without"),
+            ("crates/a/src/b.rs", "//! B.\n#![allow(\n    unused,\n)]\n", ":2: `allow` without"),
+            ("crates/a/README.md", "See /work/main.\n", "README.md:1: /work is a path"),
+            ("crates/a/src/b.rs", "//! B.\n// \"/tmp/x\"\n", "b.rs:2: /tmp/ is a path"),
+            ("docs/b.md", "file:///home/me\n", "docs/b.md:1: /home/ is a path"),
+            ("docs/b.md", "two  \nlines\n", "docs/b.md:1: trailing white space"),
             (".ci/run", "echo\t\n", ".ci/run:1: trailing white space"),
-            (
-                "docs/b.md",
-                "no newline",
-                "docs/b.md: does not end with one newline",
-            ),
-            (
-                "docs/b.md",
-                "two newlines\n\n",
-                "docs/b.md: does not end with one newline",
-            ),
-            (
-                "docs/b.md",
-                "carriage\r\n",
-                "docs/b.md:1: trailing white space",
-            ),
-            (
-                "crates/a/src/b.rs",
-                "//! B.\n// TODO: more\n",
-                "b.rs:2: TODO left over",
-            ),
-            (
-                "crates/a/src/b.rs",
-                "//! B. FIXME\n",
-                "b.rs:1: FIXME left over",
-            ),
-            (
-                "crates/a/Cargo.toml",
-                &format!("# XXX\n{MANIFEST}"),
-                "Cargo.toml:1: XXX left over",
-            ),
-            (
-                "xtask/Cargo.toml",
-                "[package]\n",
-                "xtask/Cargo.toml: does not inherit the lints",
-            ),
-            (
-                "crates/b/Cargo.toml",
-                MANIFEST,
-                "crates/b/README.md: is missing",
-            ),
+            ("docs/b.md", "no newline", "docs/b.md: does not end with one newline"),
+            ("docs/b.md", "two newlines\n\n", "docs/b.md: does not end with one newline"),
+            ("docs/b.md", "carriage\r\n", "docs/b.md:1: trailing white space"),
+            ("crates/a/src/b.rs", "//! B.\n// TODO: more\n", "b.rs:2: TODO left over"),
+            ("crates/a/src/b.rs", "//! B. FIXME\n", "b.rs:1: FIXME left over"),
+            ("crates/a/Cargo.toml", &format!("# XXX\n{MANIFEST}"), "Cargo.toml:1: XXX left over"),
+            ("xtask/Cargo.toml", "[package]\n", "xtask/Cargo.toml: does not inherit the lints"),
+            ("crates/b/Cargo.toml", MANIFEST, "crates/b/README.md: is missing"),
         ] {
             let found = found_with(&[(path, text)]);
             assert_eq!(found.len(), 1, "{path} {text:?} gives {found:?}");
-            assert!(
-                found[0].contains(complaint),
-                "{path} {text:?} gives {found:?}"
-            );
+            assert!(found[0].contains(complaint), "{path} {text:?} gives {found:?}");
         }
     }
 
@@ -353,10 +247,7 @@ mod tests {
         let source = "//! B.\n#[allow(dead_code, reason = \"why\")]\n\
             // target/tmp/x, https://a.org/work, /workspace, a TODOS list\n";
         let limits = format!("//! B.\n{}", "// line\n".repeat(399));
-        let files = [
-            ("crates/a/src/b.rs", source),
-            ("crates/a/src/c.rs", &limits),
-        ];
+        let files = [("crates/a/src/b.rs", source), ("crates/a/src/c.rs", &limits)];
         assert_eq!(found_with(&files), Vec::<String>::new());
         let ignored = [("target/b.md", "no newline"), (".git/b.md", "no newline")];
         assert_eq!(found_with(&ignored), Vec::<String>::new());

@@ -8,10 +8,7 @@ use ogm_io::{CellEncoding, IoError, WriteOptions, read_map, write_map};
 
 use crate::map;
 
-const OVERWRITE: WriteOptions = WriteOptions {
-    overwrite: true,
-    encoding: CellEncoding::Classes,
-};
+const OVERWRITE: WriteOptions = WriteOptions { overwrite: true, encoding: CellEncoding::Classes };
 
 /// Names and contents of the files of a folder.
 fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
@@ -27,12 +24,7 @@ fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 }
 
 fn saved_pair(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    write_map(
-        &folder.join("map.yaml"),
-        &map("##\n.."),
-        &WriteOptions::default(),
-    )
-    .unwrap();
+    write_map(&folder.join("map.yaml"), &map("##\n.."), &WriteOptions::default()).unwrap();
     contents(folder)
 }
 
@@ -62,15 +54,9 @@ fn an_image_that_cannot_be_put_in_place_leaves_the_old_yaml() {
     let folder = tempfile::tempdir().unwrap();
     let old = saved_pair(folder.path());
     fs::create_dir(folder.path().join("map.png")).unwrap();
-    let options = WriteOptions {
-        overwrite: true,
-        encoding: CellEncoding::Probabilities,
-    };
+    let options = WriteOptions { overwrite: true, encoding: CellEncoding::Probabilities };
     let refused = write_map(&folder.path().join("map.yaml"), &map("..\n.."), &options);
-    assert!(
-        matches!(refused, Err(IoError::Access { .. })),
-        "{refused:?}"
-    );
+    assert!(matches!(refused, Err(IoError::Access { .. })), "{refused:?}");
     assert_eq!(contents(folder.path()), old);
 }
 
@@ -79,13 +65,7 @@ fn a_folder_that_is_not_there_is_an_error() {
     let folder = tempfile::tempdir().unwrap();
     let yaml = folder.path().join("nowhere").join("map.yaml");
     let error = write_map(&yaml, &map("#"), &WriteOptions::default()).unwrap_err();
-    assert!(matches!(
-        error,
-        IoError::Access {
-            action: "write",
-            ..
-        }
-    ));
+    assert!(matches!(error, IoError::Access { action: "write", .. }));
     assert!(error.to_string().contains("nowhere"), "{error}");
 }
 

@@ -11,22 +11,13 @@ fn grey_205_is_unknown_below_an_old_free_threshold() {
     let keys = [("free_thresh", "0.25")];
     let (map, warnings) = read(&keys, SAVED).unwrap();
     assert_eq!(map.to_ascii(), "#?.?\n");
-    let expected = MapWarning::GreyReadAsUnknown {
-        free_thresh: 0.25,
-        cells: 2,
-    };
+    let expected = MapWarning::GreyReadAsUnknown { free_thresh: 0.25, cells: 2 };
     assert_eq!(warnings, [expected]);
 
-    let literal = ReadOptions {
-        literal_205: true,
-        ..ReadOptions::default()
-    };
+    let literal = ReadOptions { literal_205: true, ..ReadOptions::default() };
     let (map, warnings) = header_with(&keys).0.read_image(SAVED, &literal).unwrap();
     assert_eq!(map.to_ascii(), "#...\n");
-    let expected = MapWarning::GreyReadAsFree {
-        free_thresh: 0.25,
-        cells: 2,
-    };
+    let expected = MapWarning::GreyReadAsFree { free_thresh: 0.25, cells: 2 };
     assert_eq!(warnings, [expected]);
 }
 
@@ -45,10 +36,7 @@ fn grey_205_is_rescued_only_where_it_must_be() {
         assert_eq!(warnings, [], "{free_thresh}");
     }
     // A map without walls is still a saver's map.
-    assert_eq!(
-        picture(&[("free_thresh", "0.25")], b"P2 2 1 255 205 254"),
-        "?.\n"
-    );
+    assert_eq!(picture(&[("free_thresh", "0.25")], b"P2 2 1 255 205 254"), "?.\n");
     let negated = [("free_thresh", "0.25"), ("negate", "1")];
     assert_eq!(picture(&negated, SAVED), ".###\n");
 }
@@ -56,39 +44,21 @@ fn grey_205_is_rescued_only_where_it_must_be() {
 #[test]
 fn an_origin_of_three_digits_is_suspicious() {
     let warnings = |origin| header_with(&[("origin", origin)]).1;
-    let rounded = |axis, text: &str, error| MapWarning::RoundedOrigin {
-        axis,
-        text: text.to_owned(),
-        error,
-    };
-    assert_eq!(
-        warnings("[1.23e+04, -4.5, 0]"),
-        [rounded('x', "1.23e+04", 50.0)]
-    );
+    let rounded =
+        |axis, text: &str, error| MapWarning::RoundedOrigin { axis, text: text.to_owned(), error };
+    assert_eq!(warnings("[1.23e+04, -4.5, 0]"), [rounded('x', "1.23e+04", 50.0)]);
     assert_eq!(
         warnings("[1e+03, -152, 0]"),
         [rounded('x', "1e+03", 5.0), rounded('y', "-152", 0.5)]
     );
-    for plain in [
-        "[12345.123, 0.0, 0]",
-        "[-100.000000, -51.2, 0]",
-        "[99, 0.00123, 0]",
-    ] {
+    for plain in ["[12345.123, 0.0, 0]", "[-100.000000, -51.2, 0]", "[99, 0.00123, 0]"] {
         assert_eq!(warnings(plain), [], "{plain}");
     }
 }
 
 #[test]
 fn a_yaw_that_is_not_a_number_is_zero() {
-    for yaw in [
-        "-nan",
-        "nan",
-        ".nan",
-        "-.NaN",
-        "NaN",
-        "\"nan\"",
-        "-nan(ind)",
-    ] {
+    for yaw in ["-nan", "nan", ".nan", "-.NaN", "NaN", "\"nan\"", "-nan(ind)"] {
         let origin = format!("[1.0, 2.0, {yaw}]");
         let (header, warnings) = header_with(&[("origin", &origin)]);
         assert_eq!(header.frame.map_from_grid().theta(), 0.0, "{yaw}");

@@ -11,9 +11,7 @@ const GREYS: [u8; 6] = [0, 254, 254, 205, 205, 0];
 
 pub(crate) fn png(width: u32, height: u32, samples: &[u8], colour: ExtendedColorType) -> Vec<u8> {
     let mut file = Vec::new();
-    PngEncoder::new(&mut file)
-        .write_image(samples, width, height, colour)
-        .unwrap();
+    PngEncoder::new(&mut file).write_image(samples, width, height, colour).unwrap();
     file
 }
 
@@ -22,11 +20,7 @@ fn plain_and_raw_pgm_of_8_and_16_bit_hold_the_same_map() {
     let mut raw = b"P5\n# CREATOR: map_saver\n2 3\n255\n".to_vec();
     raw.extend(GREYS);
     let mut wide = b"P5 2 3 65535\n".to_vec();
-    wide.extend(
-        GREYS
-            .iter()
-            .flat_map(|&grey| (u16::from(grey) * 257).to_be_bytes()),
-    );
+    wide.extend(GREYS.iter().flat_map(|&grey| (u16::from(grey) * 257).to_be_bytes()));
     let mut windows = b"P5\r\n2 3\r\n255\r\n".to_vec();
     windows.extend(GREYS);
     let mut trailing = raw.clone();
@@ -45,23 +39,12 @@ fn a_maximum_below_255_rescales() {
 
 #[test]
 fn grey_and_colour_png_hold_the_same_map() {
-    assert_eq!(
-        picture(&[], &png(2, 3, &GREYS, ExtendedColorType::L8)),
-        PICTURE
-    );
+    assert_eq!(picture(&[], &png(2, 3, &GREYS, ExtendedColorType::L8)), PICTURE);
     let rgb: Vec<u8> = GREYS.iter().flat_map(|&grey| [grey; 3]).collect();
-    assert_eq!(
-        picture(&[], &png(2, 3, &rgb, ExtendedColorType::Rgb8)),
-        PICTURE
-    );
-    let wide: Vec<u8> = GREYS
-        .iter()
-        .flat_map(|&grey| (u16::from(grey) * 257).to_ne_bytes())
-        .collect();
-    assert_eq!(
-        picture(&[], &png(2, 3, &wide, ExtendedColorType::L16)),
-        PICTURE
-    );
+    assert_eq!(picture(&[], &png(2, 3, &rgb, ExtendedColorType::Rgb8)), PICTURE);
+    let wide: Vec<u8> =
+        GREYS.iter().flat_map(|&grey| (u16::from(grey) * 257).to_ne_bytes()).collect();
+    assert_eq!(picture(&[], &png(2, 3, &wide, ExtendedColorType::L16)), PICTURE);
 }
 
 #[test]

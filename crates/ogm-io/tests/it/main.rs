@@ -43,9 +43,7 @@ fn header_with(changes: &[(&str, &str)]) -> (MapHeader, Vec<MapWarning>) {
 type ReadImage = Result<(OccupancyGrid, Vec<MapWarning>), MapImageError>;
 
 fn read(changes: &[(&str, &str)], image: &[u8]) -> ReadImage {
-    header_with(changes)
-        .0
-        .read_image(image, &ReadOptions::default())
+    header_with(changes).0.read_image(image, &ReadOptions::default())
 }
 
 /// The picture of an image that must be readable.
@@ -54,9 +52,6 @@ fn picture(changes: &[(&str, &str)], image: &[u8]) -> String {
 }
 
 fn map(picture: &str) -> OccupancyGrid {
-    OccupancyGrid::from_ascii(
-        GridFrame::new(0.05, Se2::new(-1.25, 3.5, 0.3)).unwrap(),
-        picture,
-    )
-    .unwrap()
+    OccupancyGrid::from_ascii(GridFrame::new(0.05, Se2::new(-1.25, 3.5, 0.3)).unwrap(), picture)
+        .unwrap()
 }

@@ -12,14 +12,7 @@ fn yaml_error(changes: &[(&str, &str)]) -> YamlError {
 
 #[test]
 fn every_required_key_is_asked_for_by_name() {
-    for key in [
-        "image",
-        "resolution",
-        "origin",
-        "negate",
-        "occupied_thresh",
-        "free_thresh",
-    ] {
+    for key in ["image", "resolution", "origin", "negate", "occupied_thresh", "free_thresh"] {
         for absent in ["", "~", "null"] {
             let error = yaml_error(&[(key, absent)]);
             assert!(
@@ -56,16 +49,10 @@ fn values_out_of_their_domain_are_quoted() {
         ("mode", "binary"),
     ] {
         let error = yaml_error(&[(key, value)]);
-        assert!(
-            matches!(error, YamlError::Value { key: found, .. } if found == key),
-            "{error}"
-        );
+        assert!(matches!(error, YamlError::Value { key: found, .. } if found == key), "{error}");
         assert!(error.to_string().contains(value), "{error}");
     }
-    assert!(matches!(
-        yaml_error(&[("image", "''")]),
-        YamlError::Value { .. }
-    ));
+    assert!(matches!(yaml_error(&[("image", "''")]), YamlError::Value { .. }));
     for free in ["0.65", "0.7"] {
         let error = yaml_error(&[("free_thresh", free)]);
         assert!(matches!(error, YamlError::Thresholds { .. }), "{error}");
@@ -75,11 +62,7 @@ fn values_out_of_their_domain_are_quoted() {
 #[test]
 fn all_the_spellings_of_a_header_are_read() {
     for yaml in [
-        yaml_with(&[
-            ("resolution", "5e-2"),
-            ("free_thresh", ".196"),
-            ("mode", "trinary"),
-        ]),
+        yaml_with(&[("resolution", "5e-2"), ("free_thresh", ".196"), ("mode", "trinary")]),
         yaml_with(&[("resolution", "\"0.05\""), ("image", "7")]),
         yaml_with(&[("origin", "\n- -1.0\n- 2\n- 0")]),
         yaml_with(&[("unheard_of", "{a: [1, 2]}")]),
@@ -111,38 +94,24 @@ fn what_is_no_map_yaml_is_refused_with_a_place() {
             })
             .collect::<String>();
     let shape = yaml_with(&[("origin", "{x: 1}")]);
-    for text in [
-        "[1]", "words", "image: [", &twice, &deep, &open, &laughs, &shape,
-    ] {
+    for text in ["[1]", "words", "image: [", &twice, &deep, &open, &laughs, &shape] {
         let error = MapHeader::parse(text.as_bytes()).unwrap_err();
         assert!(matches!(error, YamlError::Syntax { .. }), "{error}");
     }
     let error = MapHeader::parse(twice.as_bytes()).unwrap_err().to_string();
-    assert!(
-        error.contains("line 7") && error.contains("negate"),
-        "{error}"
-    );
+    assert!(error.contains("line 7") && error.contains("negate"), "{error}");
 }
 
 #[test]
 fn absurd_sizes_are_refused_before_they_are_allocated() {
     let too_large = |image: &[u8]| {
-        matches!(
-            read(&[], image),
-            Err(MapImageError::Size(GridError::TooLarge { .. }))
-        )
+        matches!(read(&[], image), Err(MapImageError::Size(GridError::TooLarge { .. })))
     };
     assert!(too_large(b"P5 1000000000 1000000000 255\nabc"));
     assert!(too_large(b"P2 1000000000 1000000000 255\n1 2 3"));
     assert!(too_large(&png_header(1_000_000_000, 1_000_000_000)));
     let short = |image: &[u8]| {
-        matches!(
-            read(&[], image),
-            Err(MapImageError::WrongLength {
-                need: 400_000_000,
-                ..
-            })
-        )
+        matches!(read(&[], image), Err(MapImageError::WrongLength { need: 400_000_000, .. }))
     };
     assert!(short(b"P5 20000 20000 255\nabc"));
     assert!(short(b"P2 20000 20000 255\n1 2 3"));
@@ -152,20 +121,8 @@ fn absurd_sizes_are_refused_before_they_are_allocated() {
 #[test]
 fn images_that_cannot_be_meant_are_refused() {
     let error = |image: &[u8]| read(&[], image).unwrap_err();
-    for other in [
-        &b""[..],
-        b"P",
-        b"P5",
-        b"P4 1 1 ",
-        b"P6 1 1 255 abc",
-        b"BM....",
-        b"P55 1 1",
-    ] {
-        assert!(
-            matches!(error(other), MapImageError::Format { .. }),
-            "{}",
-            error(other)
-        );
+    for other in [&b""[..], b"P", b"P5", b"P4 1 1 ", b"P6 1 1 255 abc", b"BM....", b"P55 1 1"] {
+        assert!(matches!(error(other), MapImageError::Format { .. }), "{}", error(other));
     }
     for (image, field) in [
         (&b"P5 0 3 255\n"[..], "width"),
@@ -192,16 +149,9 @@ fn images_that_cannot_be_meant_are_refused() {
             "{error}"
         );
     }
-    for image in [
-        &b"P2 2 1 100\n1 101"[..],
-        b"P2 2 1 100\n1 x",
-        b"P5 2 1 100\n\x01\x65",
-    ] {
+    for image in [&b"P2 2 1 100\n1 101"[..], b"P2 2 1 100\n1 x", b"P5 2 1 100\n\x01\x65"] {
         let error = error(image);
-        assert!(
-            matches!(error, MapImageError::Pixel { index: 1, .. }),
-            "{error}"
-        );
+        assert!(matches!(error, MapImageError::Pixel { index: 1, .. }), "{error}");
     }
 }
 
@@ -217,24 +167,15 @@ fn an_error_names_the_files() {
 
     std::fs::write(&yaml, yaml_with(&[])).unwrap();
     let error = text(read_map(&yaml).unwrap_err());
-    assert!(
-        error.contains("map.pgm") && error.contains("lab.yaml"),
-        "{error}"
-    );
+    assert!(error.contains("map.pgm") && error.contains("lab.yaml"), "{error}");
 
     std::fs::write(folder.path().join("map.pgm"), b"P5 2 2 255\nabc").unwrap();
     let error = text(read_map(&yaml).unwrap_err());
-    assert!(
-        error.contains("map.pgm") && error.contains("2 × 2"),
-        "{error}"
-    );
+    assert!(error.contains("map.pgm") && error.contains("2 × 2"), "{error}");
 
     std::fs::write(&yaml, yaml_with(&[("resolution", "zero")])).unwrap();
     let error = text(read_map(&yaml).unwrap_err());
-    assert!(
-        error.contains("lab.yaml") && error.contains("resolution: zero"),
-        "{error}"
-    );
+    assert!(error.contains("lab.yaml") && error.contains("resolution: zero"), "{error}");
 
     std::fs::write(&yaml, vec![b' '; 100_000]).unwrap();
     let error = text(read_map(&yaml).unwrap_err());
@@ -249,10 +190,7 @@ fn an_image_elsewhere_is_found_by_an_absolute_path() {
     let yaml = here.path().join("lab.yaml");
     std::fs::write(&yaml, yaml_with(&[("image", image.to_str().unwrap())])).unwrap();
     let loaded = read_map(&yaml).unwrap();
-    assert_eq!(
-        (loaded.image, loaded.map.to_ascii().as_str()),
-        (image, "#\n")
-    );
+    assert_eq!((loaded.image, loaded.map.to_ascii().as_str()), (image, "#\n"));
 }
 
 proptest! {
@@ -276,11 +214,7 @@ proptest! {
 fn png_header(width: u32, height: u32) -> Vec<u8> {
     let mut ihdr = [width.to_be_bytes(), height.to_be_bytes()].concat();
     ihdr.extend([8, 0, 0, 0, 0]);
-    let chunks = [
-        chunk(b"IHDR", &ihdr),
-        chunk(b"IDAT", &[0x78, 0x9c, 3, 0]),
-        chunk(b"IEND", &[]),
-    ];
+    let chunks = [chunk(b"IHDR", &ihdr), chunk(b"IDAT", &[0x78, 0x9c, 3, 0]), chunk(b"IEND", &[])];
     [b"\x89PNG\r\n\x1a\n".to_vec(), chunks.concat()].concat()
 }
 
@@ -288,11 +222,7 @@ fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     let body = [&kind[..], data].concat();
     let checksum = !body.iter().fold(u32::MAX, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| {
-            if crc & 1 == 1 {
-                crc >> 1 ^ 0xedb8_8320
-            } else {
-                crc >> 1
-            }
+            if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 }
         })
     });
     let length = u32::try_from(data.len()).unwrap().to_be_bytes();

@@ -8,11 +8,7 @@ use crate::images::png;
 use crate::{header_with, picture, read};
 
 fn probabilities(map: &OccupancyGrid) -> Vec<Option<f64>> {
-    map.cells()
-        .cells()
-        .iter()
-        .map(|cell| cell.probability())
-        .collect()
+    map.cells().cells().iter().map(|cell| cell.probability()).collect()
 }
 
 #[test]
@@ -42,32 +38,21 @@ fn negate_inverts() {
     for no in ["0", "false", "no", "off"] {
         assert_eq!(picture(&[("negate", no)], image), "#?.\n", "{no}");
     }
-    let scale = [
-        ("negate", "1"),
-        ("mode", "scale"),
-        ("occupied_thresh", "1"),
-        ("free_thresh", "0"),
-    ];
+    let scale =
+        [("negate", "1"), ("mode", "scale"), ("occupied_thresh", "1"), ("free_thresh", "0")];
     let (map, _) = read(&scale, b"P2 2 1 255 0 255").unwrap();
     assert_eq!(probabilities(&map), [Some(0.0), Some(1.0)]);
 }
 
 #[test]
 fn scale_is_linear_between_the_thresholds() {
-    let keys = [
-        ("mode", "scale"),
-        ("occupied_thresh", "0.8"),
-        ("free_thresh", "0.2"),
-    ];
+    let keys = [("mode", "scale"), ("occupied_thresh", "0.8"), ("free_thresh", "0.2")];
     assert_eq!(header_with(&keys).0.mode, MapMode::Scale);
     // Occupied fractions 1, 0.8, 0.6, 0.5, 0.2, 0.
     let (map, warnings) = read(&keys, b"P2 6 1 10 0 2 4 5 8 10").unwrap();
     let expected = [1.0, 1.0, 2.0 / 3.0, 0.5, 0.0, 0.0];
     for (read, expected) in probabilities(&map).into_iter().zip(expected) {
-        assert!(
-            (read.unwrap() - expected).abs() <= 0.5 / 254.0 + 1e-12,
-            "{read:?} {expected}"
-        );
+        assert!((read.unwrap() - expected).abs() <= 0.5 / 254.0 + 1e-12, "{read:?} {expected}");
     }
     assert_eq!(warnings, []);
 }
@@ -83,16 +68,10 @@ fn scale_reads_what_is_not_opaque_as_unknown() {
 fn raw_pixels_are_percentages() {
     let keys = [("mode", "raw")];
     let (map, warnings) = read(&keys, b"P2 5 1 255 0 50 100 101 255").unwrap();
-    assert_eq!(
-        probabilities(&map),
-        [Some(0.0), Some(0.5), Some(1.0), None, None]
-    );
+    assert_eq!(probabilities(&map), [Some(0.0), Some(0.5), Some(1.0), None, None]);
     assert_eq!(warnings, []);
-    let (same, warnings) = read(
-        &[("mode", "raw"), ("negate", "1")],
-        b"P2 5 1 255 0 50 100 101 255",
-    )
-    .unwrap();
+    let (same, warnings) =
+        read(&[("mode", "raw"), ("negate", "1")], b"P2 5 1 255 0 50 100 101 255").unwrap();
     assert_eq!((same, warnings), (map, vec![MapWarning::NegateIgnored]));
 }
 
@@ -105,10 +84,7 @@ fn alpha_in_a_trinary_map_is_left_out_unless_asked_for() {
     assert_eq!(map.to_ascii(), "#?.?\n");
     assert_eq!(warnings, [MapWarning::AlphaLeftOut { translucent: 1 }]);
 
-    let averaged = ReadOptions {
-        averaged_alpha: true,
-        ..ReadOptions::default()
-    };
+    let averaged = ReadOptions { averaged_alpha: true, ..ReadOptions::default() };
     let (map, warnings) = header_with(&[]).0.read_image(&file, &averaged).unwrap();
     // (205 + 255)/2 = 230 is free, (0 + 255)/2 is neither, (0 + 0)/2 is occupied.
     assert_eq!(map.to_ascii(), "?..#\n");

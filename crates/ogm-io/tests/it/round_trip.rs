@@ -7,10 +7,8 @@ use std::f64::consts::PI;
 
 use crate::map;
 
-const PROBABILITIES: WriteOptions = WriteOptions {
-    overwrite: false,
-    encoding: CellEncoding::Probabilities,
-};
+const PROBABILITIES: WriteOptions =
+    WriteOptions { overwrite: false, encoding: CellEncoding::Probabilities };
 
 fn any_map() -> impl Strategy<Value = OccupancyGrid> {
     let frame = (0.001_f64..2.0, -1e5_f64..1e5, -1e5_f64..1e5, -PI..PI).prop_map(
@@ -29,10 +27,7 @@ fn assert_same_place(read: &GridFrame, written: &GridFrame) {
     let (read_pose, pose) = (read.map_from_grid(), written.map_from_grid());
     assert_eq!(read.resolution(), written.resolution());
     assert_eq!(read_pose.translation(), pose.translation());
-    assert!(
-        (read_pose.theta() - pose.theta()).abs() < 1e-15 * PI,
-        "{pose:?}"
-    );
+    assert!((read_pose.theta() - pose.theta()).abs() < 1e-15 * PI, "{pose:?}");
 }
 
 proptest! {
@@ -93,12 +88,7 @@ fn the_file_is_what_other_tools_expect() {
     let frame = GridFrame::new(0.1, Se2::new(12_345.123_456_789, -1e-9, 0.0)).unwrap();
     let map = OccupancyGrid::from_ascii(frame, "#").unwrap();
     let folder = tempfile::tempdir().unwrap();
-    write_map(
-        &folder.path().join("lab.yaml"),
-        &map,
-        &WriteOptions::default(),
-    )
-    .unwrap();
+    write_map(&folder.path().join("lab.yaml"), &map, &WriteOptions::default()).unwrap();
     let text = std::fs::read_to_string(folder.path().join("lab.yaml")).unwrap();
     assert_eq!(
         text,
@@ -112,17 +102,7 @@ fn the_file_is_what_other_tools_expect() {
 fn names_that_yaml_could_misread_come_back() {
     let folder = tempfile::tempdir().unwrap();
     let map = map("#.\n?.");
-    for name in [
-        "it's a map: #1",
-        "007",
-        "~",
-        "- x",
-        "карта",
-        "*a",
-        "true",
-        "{a}",
-        "a.b",
-    ] {
+    for name in ["it's a map: #1", "007", "~", "- x", "карта", "*a", "true", "{a}", "a.b"] {
         let yaml = folder.path().join(format!("{name}.yaml"));
         write_map(&yaml, &map, &WriteOptions::default()).unwrap();
         assert_eq!(read_map(&yaml).unwrap().map.cells(), map.cells(), "{name}");

@@ -9,11 +9,7 @@ const HEADER: &str = "tag_id,robot_x_m,robot_y_m,range_m\n";
 
 fn reading() -> impl Strategy<Value = TagReading> {
     (any::<u32>(), -1e6_f64..1e6, -1e6_f64..1e6, 0.0_f64..1e3).prop_map(|(tag_id, x, y, range)| {
-        TagReading {
-            tag_id,
-            robot_position: Point2::new(x, y),
-            range,
-        }
+        TagReading { tag_id, robot_position: Point2::new(x, y), range }
     })
 }
 
@@ -44,23 +40,14 @@ proptest! {
 #[test]
 fn spreadsheets_and_windows_are_understood() {
     let text = "\u{feff}tag_id, robot_x_m, robot_y_m, range_m\r\n7, -1.5, 2e0, .25\r\n\r\n";
-    let expected = TagReading {
-        tag_id: 7,
-        robot_position: Point2::new(-1.5, 2.0),
-        range: 0.25,
-    };
+    let expected = TagReading { tag_id: 7, robot_position: Point2::new(-1.5, 2.0), range: 0.25 };
     assert_eq!(parse_tags(text.as_bytes()).unwrap(), [expected]);
     assert_eq!(parse_tags(HEADER.as_bytes()).unwrap(), []);
 }
 
 #[test]
 fn another_header_is_refused() {
-    for text in [
-        "",
-        "7,1,2,3\n",
-        "tag_id,robot_x_m,robot_y_m\n",
-        "tag,x,y,range\n",
-    ] {
+    for text in ["", "7,1,2,3\n", "tag_id,robot_x_m,robot_y_m\n", "tag,x,y,range\n"] {
         let error = parse_tags(text.as_bytes()).unwrap_err();
         assert!(matches!(error, TagLogError::Header { .. }), "{error}");
         assert!(error.to_string().contains(HEADER.trim()), "{error}");
@@ -80,13 +67,7 @@ fn a_bad_value_is_named_with_its_line() {
         ("1,1,2,3m", "range_m", "3m"),
     ] {
         let error = error(&format!("5,1,2,3\n{value}\n"));
-        let TagLogError::Value {
-            line,
-            column: found,
-            value,
-            ..
-        } = error
-        else {
+        let TagLogError::Value { line, column: found, value, .. } = error else {
             panic!("{error}");
         };
         assert_eq!((line, found, value.as_str()), (3, column, quoted));
@@ -106,32 +87,16 @@ fn a_bad_value_is_named_with_its_line() {
 fn what_could_not_be_read_back_is_not_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("tags.csv");
-    let good = TagReading {
-        tag_id: 1,
-        robot_position: Point2::new(0.0, 0.0),
-        range: 1.0,
-    };
+    let good = TagReading { tag_id: 1, robot_position: Point2::new(0.0, 0.0), range: 1.0 };
     write_tags(&path, &[good]).unwrap();
     for bad in [
-        TagReading {
-            range: -1.0,
-            ..good
-        },
-        TagReading {
-            range: f64::NAN,
-            ..good
-        },
-        TagReading {
-            robot_position: Point2::new(0.0, f64::INFINITY),
-            ..good
-        },
+        TagReading { range: -1.0, ..good },
+        TagReading { range: f64::NAN, ..good },
+        TagReading { robot_position: Point2::new(0.0, f64::INFINITY), ..good },
     ] {
         let error = write_tags(&path, &[good, bad]).unwrap_err();
         assert!(matches!(error, IoError::Tags { .. }) && error.to_string().contains("line 3"));
     }
     assert_eq!(read_tags(&path).unwrap(), [good]);
-    assert!(matches!(
-        read_tags(&folder.path().join("no.csv")),
-        Err(IoError::Access { .. })
-    ));
+    assert!(matches!(read_tags(&folder.path().join("no.csv")), Err(IoError::Access { .. })));
 }

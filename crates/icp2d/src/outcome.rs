@@ -1,0 +1,105 @@
+//! What an alignment found and how it ended.
+
+use nalgebra::{Point2, Vector2};
+use ogm_core::Se2;
+
+/// Where a source map lies in a target map, and how surely.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub struct Alignment {
+    /// Maps source points into the target map; it includes the start.
+    pub target_from_source: Se2,
+    /// How it ended. Only [`Termination::Converged`] is an answer to rely on.
+    pub termination: Termination,
+    /// Iterations done.
+    pub iterations: usize,
+    /// Pairs at the final gate under `target_from_source`.
+    pub pairs: usize,
+    /// Root mean square distance of these pairs, metres.
+    pub rmse: f64,
+    /// Pairs at the final gate under the start.
+    pub initial_pairs: usize,
+    /// Root mean square distance of those, metres; `None` if they were too few to say.
+    pub initial_rmse: Option<f64>,
+    /// Unit vector in the target frame along which the walls of the pairs say nothing, as in a
+    /// corridor; along it the translation is that of the start.
+    pub unobservable: Option<Vector2<f64>>,
+    /// The part of the target frame that was compared.
+    pub section: Section,
+}
+
+/// How an alignment ended.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[non_exhaustive]
+pub enum Termination {
+    /// The last iteration at the final gate moved less than the stop.
+    Converged,
+    /// Still moving after the last allowed iteration; the last estimate is returned.
+    IterationLimit,
+    /// The pairs lie further apart than those of the start without being more, and the start is
+    /// returned.
+    WorseFit {
+        /// Root mean square distance of the pairs where it ended, metres.
+        rmse: f64,
+    },
+    /// It left the surroundings of the start, and the start is returned.
+    MovedTooFar {
+        /// How far the centre of the source points moved, metres.
+        translation: f64,
+        /// How far it turned, radians.
+        rotation: f64,
+    },
+}
+
+impl Termination {
+    /// Whether the alignment converged.
+    #[must_use]
+    pub fn is_converged(&self) -> bool {
+        matches!(self, Self::Converged)
+    }
+
+    /// Whether the result is the start, unchanged, because the search diverged.
+    #[must_use]
+    pub fn is_diverged(&self) -> bool {
+        matches!(self, Self::WorseFit { .. } | Self::MovedTooFar { .. })
+    }
+}
+
+/// The rectangle of the target frame in which both maps are expected to have walls (Tsardoulias
+/// et al., Fig. 18), axis-aligned, metres.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Section {
+    /// Lower-left corner.
+    pub min: Point2<f64>,
+    /// Upper-right corner.
+    pub max: Point2<f64>,
+}
+
+impl Section {
+    /// Whether `point` of the target frame lies inside or on the border.
+    #[must_use]
+    pub fn contains(&self, point: Point2<f64>) -> bool {
+        self.min <= point && point <= self.max
+    }
+
+    /// The intersection of the bounding boxes of two point sets in one frame, grown by `margin`.
+    pub(crate) fn common(
+        a: impl Iterator<Item = Point2<f64>>,
+        b: impl Iterator<Item = Point2<f64>>,
+        margin: f64,
+    ) -> Option<Self> {
+        let (a, b) = (bounding_box(a)?, bounding_box(b)?);
+        let margin = Vector2::repeat(margin);
+        let section = Self { min: a.min.sup(&b.min) - margin, max: a.max.inf(&b.max) + margin };
+        (section.min <= section.max).then_some(section)
+    }
+}
+
+fn bounding_box(mut points: impl Iterator<Item = Point2<f64>>) -> Option<Section> {
+    let first = points.next()?;
+    let start = Section { min: first, max: first };
+    Some(points.fold(start, |sides, point| Section {
+        min: sides.min.inf(&point),
+        max: sides.max.sup(&point),
+    }))
+}

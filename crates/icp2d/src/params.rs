@@ -1,0 +1,171 @@
+//! The knobs of the alignment.
+
+use ogm_core::Length;
+
+use crate::IcpError;
+
+/// Which nearest neighbours count as the same piece of wall.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Pairing {
+    /// Free sides agree and each is nearest to the other. Safe where the robots saw different
+    /// faces of a wall.
+    #[default]
+    NormalsReciprocal,
+    /// Free sides agree.
+    Normals,
+    /// Each is nearest to the other.
+    Reciprocal,
+    /// Every source point with its nearest target point: ICP as in Besl and McKay.
+    OneWay,
+    /// The given share, in (0, 1], of the one-way pairs, shortest first.
+    Trimmed(f64),
+}
+
+/// What an iteration minimises.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Metric {
+    /// Squared distance between the points of a pair; closed form. Where both maps have their
+    /// cells on parallel lattices, it can come to rest a cell or two off.
+    #[default]
+    PointToPoint,
+    /// Squared distance to the line through the wall around the target point; where there is no
+    /// such line, to the point. Walls slide freely along each other, so no lattice holds it.
+    PointToLine,
+}
+
+/// How to align; see [`align`](crate::align).
+///
+/// Tsardoulias et al. give no values. Those here were found on simulated maps of 0.02 m a cell;
+/// lengths keep their metres on other maps, and never fall below the stated cells of the coarser
+/// one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IcpParams {
+    /// How far the common section reaches beyond the intersection of the bounding boxes: 0.5 m,
+    /// the first gate, so that no pair is lost at its border.
+    pub section_margin: Length,
+    /// Largest distance of a pair at first: 0.5 m, the error that a start from tags has.
+    /// `f64::INFINITY` for no gate, then in `final_gate` too.
+    pub initial_gate: Length,
+    /// The gate shrinks by this factor an iteration, in (0, 1): 0.8, from the first gate to the
+    /// last in eight. Nearer to 1 forgives a worse start.
+    pub gate_factor: f64,
+    /// Largest distance of a pair at last: 0.1 m, below the thickness of a wall, and 2.5 cells,
+    /// above the noise of a coarse map.
+    pub final_gate: Length,
+    /// Which neighbours are pairs.
+    pub pairing: Pairing,
+    /// Free sides agree if the cosine between them exceeds this: 0.3, about 70 degrees, since the
+    /// free side of a cell near a corner turns by 45.
+    pub min_side_cosine: f64,
+    /// The point nearest to the partner of a point may be this far from the point itself: 0.03 m
+    /// and 1.5 cells, its neighbours on the lattice.
+    pub reciprocity: Length,
+    /// What an iteration minimises.
+    pub metric: Metric,
+    /// Iterations at most: 80; maps without drift take 13 to 46 on average.
+    pub max_iterations: usize,
+    /// Converged when an iteration turns by less than this, radians: 1e-6, a millimetre in a kilometre.
+    pub stop_rotation: f64,
+    /// and moves the centre of the pairs by less than this: 0.04 mm, or a tenth of a cell.
+    pub stop_translation: Length,
+    /// Pairs needed: 10; fewer say nothing about two maps.
+    pub min_pairs: usize,
+    /// Furthest that the result may move from the start: 1 m, twice the first gate.
+    pub max_translation: Length,
+    /// Furthest that the result may turn from the start, radians: 10 degrees.
+    pub max_rotation: f64,
+    /// The walls are those of a corridor if the smaller eigenvalue of Σ n nᵀ over their normals n
+    /// is below this share of the larger: 0.02, walls within about 8 degrees of one direction.
+    pub min_eigenvalue_ratio: f64,
+}
+
+/// Metres of the pixel in which the lengths were found.
+const PIXEL: f64 = 0.02;
+
+impl Default for IcpParams {
+    fn default() -> Self {
+        Self {
+            section_margin: Length::metres(25.0 * PIXEL),
+            initial_gate: Length::metres(25.0 * PIXEL),
+            gate_factor: 0.8,
+            final_gate: Length::metres(5.0 * PIXEL).at_least_cells(2.5),
+            pairing: Pairing::default(),
+            min_side_cosine: 0.3,
+            reciprocity: Length::metres(1.5 * PIXEL).at_least_cells(1.5),
+            metric: Metric::default(),
+            max_iterations: 80,
+            stop_rotation: 1e-6,
+            stop_translation: Length::metres(0.002 * PIXEL).at_least_cells(0.1),
+            min_pairs: 10,
+            max_translation: Length::metres(50.0 * PIXEL),
+            max_rotation: 10_f64.to_radians(),
+            min_eigenvalue_ratio: 0.02,
+        }
+    }
+}
+
+impl IcpParams {
+    /// The same with every length in cells of the map, whatever its resolution: margin and first
+    /// gate 25, last gate 5, reciprocity 1.5, stop 0.002, furthest move 50.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            section_margin: Length::cells(25.0),
+            initial_gate: Length::cells(25.0),
+            final_gate: Length::cells(5.0),
+            reciprocity: Length::cells(1.5),
+            stop_translation: Length::cells(0.002),
+            max_translation: Length::cells(50.0),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn check(&self) -> Result<(), IcpError> {
+        let lengths = [
+            ("section_margin", self.section_margin),
+            ("initial_gate", self.initial_gate),
+            ("final_gate", self.final_gate),
+            ("reciprocity", self.reciprocity),
+            ("stop_translation", self.stop_translation),
+            ("max_translation", self.max_translation),
+        ];
+        for (name, length) in lengths {
+            for value in [length.metres, length.min_cells] {
+                require(value >= 0.0, name, "a length of at least 0", value)?;
+            }
+        }
+        let factor = self.gate_factor;
+        require(0.0 < factor && factor < 1.0, "gate_factor", "in (0, 1)", factor)?;
+        let (first, last) = (self.initial_gate.metres, self.final_gate.metres);
+        require(
+            first.is_finite() || last.is_infinite(),
+            "final_gate",
+            "infinite where the initial gate is, which never shrinks",
+            last,
+        )?;
+        let cosine = self.min_side_cosine;
+        require((-1.0..=1.0).contains(&cosine), "min_side_cosine", "in [-1, 1]", cosine)?;
+        let angles = [("stop_rotation", self.stop_rotation), ("max_rotation", self.max_rotation)];
+        for (name, value) in angles {
+            require(value >= 0.0, name, "an angle of at least 0", value)?;
+        }
+        let pairs = self.min_pairs;
+        require(pairs >= 2, "min_pairs", "at least 2", pairs as f64)?;
+        let ratio = self.min_eigenvalue_ratio;
+        require((0.0..=1.0).contains(&ratio), "min_eigenvalue_ratio", "in [0, 1]", ratio)?;
+        if let Pairing::Trimmed(share) = self.pairing {
+            let fits = 0.0 < share && share <= 1.0;
+            require(fits, "pairing", "a trimmed share in (0, 1]", share)?;
+        }
+        Ok(())
+    }
+}
+
+pub(crate) fn require(
+    holds: bool,
+    name: &'static str,
+    requirement: &'static str,
+    value: f64,
+) -> Result<(), IcpError> {
+    if holds { Ok(()) } else { Err(IcpError::InvalidParameter { name, requirement, value }) }
+}

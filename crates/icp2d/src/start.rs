@@ -1,0 +1,243 @@
+//! A better start where the given one lies outside the basin of the alignment.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Point2, Vector2};
+use ogm_core::{Length, Outcome, Refusal, Se2};
+
+use crate::align::check_start;
+use crate::params::require;
+use crate::sided::SidedIndex;
+use crate::{IcpError, WallPoint, WallPoints};
+
+/// How far and how finely to look around a start; see [`search_start`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct StartParams {
+    /// How far the maps may be shifted against each other, metres: 1.0, five times the step, what
+    /// a tag that is misplaced by 0.2 m in both maps can cause at three sigma.
+    pub reach: Length,
+    /// How far they may be turned, radians: 5°, what the walls of a bent map can cause.
+    pub max_rotation: f64,
+    /// Distance between trial shifts, and at first between walls that match: 0.2 m, at least two
+    /// cells of the coarser map.
+    pub step: Length,
+    /// Source points that vote: 400, enough that chance agreement averages out.
+    pub max_points: usize,
+    /// Another basin is taken only if its score exceeds that of the given start by this share:
+    /// 0.05, so that noise along a corridor moves nothing.
+    pub min_gain: f64,
+}
+
+impl Default for StartParams {
+    fn default() -> Self {
+        Self {
+            reach: Length::metres(1.0),
+            max_rotation: 5.0_f64.to_radians(),
+            step: Length::metres(0.2).at_least_cells(2.0),
+            max_points: 400,
+            min_gain: 0.05,
+        }
+    }
+}
+
+/// Basins that are followed to their top besides that of the given start.
+const BASINS: usize = 8;
+/// Most trial shifts from the start in one direction.
+const MAX_STEPS: f64 = 50.0;
+/// Halvings of the step on the way to the top.
+const HALVINGS: usize = 3;
+
+/// The start from which most walls come to lie on walls seen from the same side, out of shifts
+/// and turns around `init_target_from_source`.
+///
+/// The given start itself comes back unless another basin is clearly better. [`align`] from here
+/// converges where the given start was further off than its gate.
+///
+/// Refuses with [`Refusal::TooLittleStructure`] if either set is empty, and with
+/// [`Refusal::NoOverlap`] if no source point comes near the target.
+///
+/// # Errors
+/// A non-finite start, or a parameter outside its range.
+///
+/// [`align`]: crate::align()
+pub fn search_start(
+    target: &WallPoints,
+    source: &WallPoints,
+    init_target_from_source: Se2,
+    params: &StartParams,
+) -> Result<Outcome<Se2>, IcpError> {
+    let spacing = target.spacing().max(source.spacing());
+    let (reach, step) = (params.reach.resolve(spacing), params.step.resolve(spacing));
+    let steps = reach / step;
+    require((0.0..=MAX_STEPS).contains(&steps), "reach", "0 to 50 steps", steps)?;
+    let rotation = params.max_rotation;
+    require((0.0..=PI).contains(&rotation), "max_rotation", "0 to half a turn", rotation)?;
+    check_start(&init_target_from_source)?;
+
+    let index = SidedIndex::new(target);
+    let Some(index) = index.filter(|_| !source.points().is_empty()) else {
+        return Ok(Outcome::Refused(Refusal::TooLittleStructure { have: 0, need: 1 }));
+    };
+    let near: Vec<WallPoint> = source
+        .points()
+        .iter()
+        .filter(|point| index.is_near(init_target_from_source * point.position, reach))
+        .copied()
+        .collect();
+    let Some(voters) = Voters::new(&near, init_target_from_source, params.max_points) else {
+        return Ok(Outcome::Refused(Refusal::NoOverlap { have: 0, need: 1 }));
+    };
+    let search = Search { index: &index, voters: &voters, step, finest: 1.5 * spacing };
+    Ok(Outcome::Found(search.run(reach, params)))
+}
+
+/// Source points that vote, and the place that the source is turned about.
+struct Voters {
+    points: Vec<WallPoint>,
+    init_target_from_source: Se2,
+    /// In the target frame.
+    centre: Point2<f64>,
+    /// Distance of the furthest voter from the centre, metres.
+    extent: f64,
+}
+
+impl Voters {
+    /// Every so many of `near`, at most `max_points`.
+    fn new(near: &[WallPoint], init_target_from_source: Se2, max_points: usize) -> Option<Self> {
+        let every = near.len().div_ceil(max_points.max(1)).max(1);
+        let points: Vec<WallPoint> = near.iter().step_by(every).copied().collect();
+        let images = || points.iter().map(|point| init_target_from_source * point.position);
+        let sum = images().fold(Vector2::zeros(), |sum, image| sum + image.coords);
+        let centre = Point2::from(sum / points.len() as f64);
+        let extent = images().map(|image| (image - centre).norm()).fold(0.0, f64::max);
+        (!points.is_empty()).then_some(Self { points, init_target_from_source, centre, extent })
+    }
+
+    fn target_from_source(&self, offset: &Offset) -> Se2 {
+        let shift = Vector2::new(offset.x, offset.y);
+        Se2::about(self.centre, offset.theta, shift) * self.init_target_from_source
+    }
+}
+
+/// A motion away from the given start: a turn about the voters' centre, then a shift.
+#[derive(Debug, Clone, Copy, Default)]
+struct Offset {
+    x: f64,
+    y: f64,
+    theta: f64,
+}
+
+struct Search<'a> {
+    index: &'a SidedIndex,
+    voters: &'a Voters,
+    step: f64,
+    /// Walls closer than this match as well as can be told.
+    finest: f64,
+}
+
+impl Search<'_> {
+    fn run(&self, reach: f64, params: &StartParams) -> Se2 {
+        let given = self.climb(Offset::default());
+        let mut best = given;
+        for basin in self.basins(reach, params.max_rotation) {
+            let top = self.climb(basin);
+            if top.1 > best.1 {
+                best = top;
+            }
+        }
+        let offset =
+            if best.1 > given.1 * (1.0 + params.min_gain) { best.0 } else { Offset::default() };
+        self.voters.target_from_source(&offset)
+    }
+
+    /// The turn that moves the furthest voter by one step, kept between half and two degrees.
+    fn turn(&self) -> f64 {
+        (self.step / self.voters.extent).clamp(0.5_f64.to_radians(), 2.0_f64.to_radians())
+    }
+
+    /// The best trial offsets that are more than two steps apart.
+    fn basins(&self, reach: f64, max_rotation: f64) -> Vec<Offset> {
+        let turn = self.turn();
+        let mut trials = Vec::new();
+        for theta in lattice(max_rotation, turn) {
+            for y in lattice(reach, self.step) {
+                for x in lattice(reach, self.step) {
+                    let offset = Offset { x, y, theta };
+                    trials.push((offset, self.score(&offset, self.step)));
+                }
+            }
+        }
+        // Stable: equal scores stay in the order of the lattice.
+        trials.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let mut chosen: Vec<Offset> = Vec::with_capacity(BASINS);
+        for (offset, _) in trials {
+            let apart = |other: &Offset| {
+                (offset.x - other.x).hypot(offset.y - other.y) > 2.1 * self.step
+                    || (offset.theta - other.theta).abs() > 2.1 * turn
+            };
+            if chosen.iter().all(apart) {
+                chosen.push(offset);
+                if chosen.len() == BASINS {
+                    break;
+                }
+            }
+        }
+        chosen
+    }
+
+    /// Climbs from `offset` with ever smaller steps; the top and its score.
+    fn climb(&self, offset: Offset) -> (Offset, f64) {
+        let (mut step, mut turn) = (self.step, self.turn());
+        let mut top = (offset, 0.0);
+        for _ in 0..HALVINGS {
+            step /= 2.0;
+            turn /= 2.0;
+            let tolerance = (1.5 * step).max(self.finest);
+            top.1 = self.score(&top.0, tolerance);
+            // A climb of a few steps stays within its basin.
+            for _ in 0..4 {
+                let here = top.0;
+                for (x, y, theta) in [
+                    (step, 0.0, 0.0),
+                    (-step, 0.0, 0.0),
+                    (0.0, step, 0.0),
+                    (0.0, -step, 0.0),
+                    (0.0, 0.0, turn),
+                    (0.0, 0.0, -turn),
+                ] {
+                    let next = Offset { x: here.x + x, y: here.y + y, theta: here.theta + theta };
+                    let score = self.score(&next, tolerance);
+                    if score > top.1 {
+                        top = (next, score);
+                    }
+                }
+                if top.0.x == here.x && top.0.y == here.y && top.0.theta == here.theta {
+                    break;
+                }
+            }
+        }
+        top
+    }
+
+    /// How many voters lie on a wall seen from their side, less the square of their share of the
+    /// tolerance that they miss it by.
+    fn score(&self, offset: &Offset, tolerance: f64) -> f64 {
+        let target_from_source = self.voters.target_from_source(offset);
+        let votes = self.voters.points.iter().map(|point| {
+            let side = point.free_side.map(|side| target_from_source * side);
+            self.index
+                .distance_sq(target_from_source * point.position, side, tolerance)
+                .map_or(0.0, |distance_sq| 1.0 - distance_sq / (tolerance * tolerance))
+        });
+        votes.sum()
+    }
+}
+
+/// Multiples of `step` from −`reach` to `reach`.
+fn lattice(reach: f64, step: f64) -> impl Iterator<Item = f64> {
+    let half = (reach / step).round();
+    let from = -half;
+    std::iter::successors(Some(from), |i| Some(i + 1.0))
+        .take_while(move |&i| i <= half)
+        .map(move |i| i * step)
+}

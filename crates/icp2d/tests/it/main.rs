@@ -1,0 +1,7 @@
+//! What a user of the alignment would notice.
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod metamorphic;
+mod numbered;
+mod refusals;
+mod walls;

@@ -1,6 +1,6 @@
 //! The recipes: each reads like the section of the paper that it implements.
 
-use icp2d::WallPoints;
+use icp2d::{Termination, WallPoints};
 use ogm_core::{OccupancyGrid, Refusal, Se2};
 use rfid_loc::{
     AMBIGUOUS_ABOVE, QuadrantConfidence, TagPair, anchor_on_best_tag, common_tags,
@@ -83,7 +83,9 @@ pub(crate) fn tags_walls_and_icp(
             .into_result()?;
     let target_from_source = alignment.target_from_source;
     seen.refinement = Some(alignment);
-    if alignment.termination.is_diverged() {
+    // A fit that the iterations could not improve on is still the best there is; one that left the
+    // surroundings of its start is none.
+    if let Termination::MovedTooFar { .. } = alignment.termination {
         let (iterations, rmse_m) = (alignment.iterations, alignment.rmse);
         return Err(Refusal::NotConverged { iterations, rmse_m }.into());
     }

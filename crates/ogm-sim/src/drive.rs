@@ -45,8 +45,8 @@ const SMALLEST_CLEARANCE_CELLS: f64 = 1.5;
 /// line stays clear when it is sampled more finely.
 const CURVE_CLEARANCE: f64 = 0.4;
 
-/// A winding path through the largest connected free space of `map` to far random places, in the
-/// map's frame.
+/// A winding path through the largest connected free space of `map`, each time to a random place
+/// far from where it has been, in the map's frame.
 ///
 /// For reading simulated tags with the map of a real robot.
 ///
@@ -75,7 +75,7 @@ fn path_through(map: &OccupancyGrid, params: &DriveParams) -> Result<Vec<Point2<
     let mut points = vec![space.point(here)];
     let mut left = params.length;
     while left > 0.0 {
-        let there = far_node(&space, &nodes, here, &mut rng);
+        let there = far_node(&space, &nodes, &points, &mut rng);
         let way = wander(&space, &[here, there], &mut rng).ok_or_else(|| refusal(nodes.len()))?;
         let driven: f64 = way.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
         // Ends also where rounding leaves no second node to go to.
@@ -117,17 +117,26 @@ fn region(map: &OccupancyGrid, clearance: f64) -> Result<(FreeSpace, Vec<Node>),
     }
 }
 
-/// The furthest of a few random nodes.
-fn far_node(space: &FreeSpace, nodes: &[Node], here: Node, rng: &mut ChaCha8Rng) -> Node {
-    let mut furthest = here;
-    for _ in 0..6 {
+/// Of a few random nodes, the furthest from where the drive has been: it leaves no corner out.
+fn far_node(
+    space: &FreeSpace,
+    nodes: &[Node],
+    driven: &[Point2<f64>],
+    rng: &mut ChaCha8Rng,
+) -> Node {
+    let mut furthest = (nodes[0], f64::NEG_INFINITY);
+    for _ in 0..24 {
         let node = nodes[rng.random_range(0..nodes.len())];
-        let distance = |node| (space.point(node) - space.point(here)).norm();
-        if distance(node) > distance(furthest) {
-            furthest = node;
+        let place = space.point(node);
+        let distance_sq = driven
+            .iter()
+            .map(|point| (point - place).norm_squared())
+            .fold(f64::INFINITY, f64::min);
+        if distance_sq > furthest.1 {
+            furthest = (node, distance_sq);
         }
     }
-    furthest
+    furthest.0
 }
 
 #[expect(

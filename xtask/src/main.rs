@@ -1,7 +1,18 @@
 //! The proof: reproduces the papers' tables and checks the shape of the workspace.
 
+#![expect(
+    clippy::disallowed_methods,
+    reason = "this is where files are written and time is measured"
+)]
+#![expect(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "it talks to a person at a terminal"
+)]
+
 mod compare;
 mod draw;
+mod fixtures;
 #[cfg(test)]
 mod layers;
 mod report;
@@ -9,6 +20,7 @@ mod stats;
 #[cfg(test)]
 mod tidy;
 
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -25,11 +37,20 @@ struct Cli {
 enum Task {
     /// Runs the papers' experiments and writes tables, figures and a report.
     Compare(compare::Args),
+    /// Writes the example maps and tag logs into a folder.
+    Fixtures {
+        /// Where to.
+        #[arg(long, default_value = "fixtures/plan-a")]
+        out: PathBuf,
+    },
 }
 
 fn main() -> ExitCode {
-    let Task::Compare(args) = Cli::parse().task;
-    match compare::run(&args) {
+    let done = match Cli::parse().task {
+        Task::Compare(args) => compare::run(&args),
+        Task::Fixtures { out } => fixtures::write(&out).map(|()| compare::Verdict::Passed),
+    };
+    match done {
         Ok(compare::Verdict::Passed) => ExitCode::SUCCESS,
         Ok(compare::Verdict::Failed) => ExitCode::FAILURE,
         Err(error) => {

@@ -128,10 +128,8 @@ fn far_node(
     for _ in 0..24 {
         let node = nodes[rng.random_range(0..nodes.len())];
         let place = space.point(node);
-        let distance_sq = driven
-            .iter()
-            .map(|point| (point - place).norm_squared())
-            .fold(f64::INFINITY, f64::min);
+        let distance_sq =
+            driven.iter().map(|point| (point - place).norm_squared()).fold(f64::INFINITY, f64::min);
         if distance_sq > furthest.1 {
             furthest = (node, distance_sq);
         }

@@ -1,12 +1,14 @@
 //! The figures of X3: lines after each stage, the OGM vector, and its spread.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Point2, Vector2};
 use ogm_core::OccupancyGrid;
 use ogm_vector::ogm_vector;
 
-use super::record::Run;
-use super::wall_direction::errors_deg;
-use crate::draw::{Histogram, Layer, Plan, histogram, plan};
+use super::record::{Run, RunResult};
+use super::wall_direction::{errors_deg, heading_of};
+use crate::draw::{Chart, Histogram, Layer, Mark, Plan, Series, chart, histogram, plan};
 use crate::report::{Figure, Image};
 
 /// Draws one extraction with the paper's values, and the spread of all.
@@ -53,7 +55,40 @@ pub(super) fn draw(map: &OccupancyGrid, runs: &[Run], seed: u64) -> anyhow::Resu
             })),
         });
     }
+    figures.push(by_heading(runs));
     Ok(figures)
+}
+
+/// Errors of X3d over the heading of the map.
+fn by_heading(runs: &[Run]) -> Figure {
+    let mut errors: BTreeMap<u64, Vec<f64>> = BTreeMap::new();
+    let mut dots = Vec::new();
+    for run in runs.iter().filter(|run| run.experiment == "X3d") {
+        if let (RunResult::Direction(error), Some(heading)) = (&run.result, heading_of(run)) {
+            dots.push((heading, error.to_degrees()));
+            errors.entry(heading.to_bits()).or_default().push(error.to_degrees());
+        }
+    }
+    // Positive numbers are ordered as their bits are.
+    let means = errors
+        .iter()
+        .filter_map(|(bits, errors)| Some((f64::from_bits(*bits), crate::stats::mean(errors)?)));
+    let means = means.collect();
+    let series = |name: &str, points, mark| Series { name: name.to_owned(), points, mark };
+    Figure {
+        name: "angles-by-heading".to_owned(),
+        caption: "X3d: error of the OGM vector over the heading of the map.".to_owned(),
+        image: Image::Svg(chart(&Chart {
+            title: "X3d: defaults on a turned map".to_owned(),
+            x_label: "heading of the map, degrees".to_owned(),
+            y_label: "error, degrees".to_owned(),
+            log_y: false,
+            series: vec![
+                series("extraction", dots, Mark::Dots),
+                series("mean", means, Mark::DottedLine),
+            ],
+        })),
+    }
 }
 
 fn vector_figure(map: &OccupancyGrid, vector: &ogm_vector::OgmVector) -> anyhow::Result<Figure> {

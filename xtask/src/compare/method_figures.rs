@@ -1,7 +1,9 @@
 //! The figures of X4: how a tag is found, how the methods align, how cells are fused.
 
+use anyhow::Context;
 use grid_merge::{ForwardRounding, GapTreatment, Mapping, MergeParams, PlacedMap, merge};
 use image::RgbImage;
+use nalgebra::Point2;
 use ogm_core::{OccupancyGrid, Se2, TagReading};
 use ogm_merge::{Method, RfidParams, RobotMap, align};
 use rfid_loc::{FilterParams, TagFilter};
@@ -52,9 +54,10 @@ pub(super) fn draw(seed: u64) -> anyhow::Result<Vec<Figure>> {
 /// The posterior of the tag that the target robot read most, as readings come in.
 fn posterior(world: &World) -> anyhow::Result<Figure> {
     let readings = &world.pair.target.readings;
-    let most_read = world.target_tags.iter().max_by_key(|tag| tag.readings).map(|tag| tag.tag_id);
+    let most_read = world.target_tags.iter().max_by_key(|tag| tag.readings);
+    let tag = most_read.context("plan A has tags that the target robot reads")?;
     let of_tag: Vec<&TagReading> =
-        readings.iter().filter(|reading| Some(reading.tag_id) == most_read).collect();
+        readings.iter().filter(|reading| reading.tag_id == tag.tag_id).collect();
     let mut panels: Vec<RgbImage> = Vec::new();
     let params = FilterParams::default();
     if let Some(first) = of_tag.first() {
@@ -63,16 +66,29 @@ fn posterior(world: &World) -> anyhow::Result<Figure> {
             for reading in of_tag.iter().take(count) {
                 filter.update(reading.robot_position, reading.range)?;
             }
-            let style = Heat { gamma: 0.25, ..Heat::default() };
+            let style = Heat {
+                gamma: 0.25,
+                upscale: 2,
+                window: Some(window_around(&filter, tag.position)),
+                ..Heat::default()
+            };
             panels.push(heat(&filter.posterior(), &style)?);
         }
     }
     Ok(Figure {
         name: "tag-posterior".to_owned(),
-        caption: "Where a tag may be, after its first 30, 100, 200 and 300 readings; 6 × 6 m, \
-                  faint values lifted."
+        caption: "Where a tag may be, after its first 30, 100, 200 and 300 readings; \
+                  2.4 × 2.4 m, faint values lifted."
             .to_owned(),
         image: Image::Png(png(&side_by_side(&panels, GAP))?),
+    })
+}
+
+/// Columns and rows of the filter's cells within 1.2 m of `place`.
+fn window_around(filter: &TagFilter, place: Point2<f64>) -> [(usize, usize); 2] {
+    filter.frame().lattice_cell(place).map(|centre| {
+        let bound = |at: i64| usize::try_from(at).unwrap_or(0);
+        (bound(centre - 60), bound(centre + 60))
     })
 }
 

@@ -12,7 +12,7 @@ use rfid_loc::{RotationCentre, TagFrame, TagOnlyParams, TagOnlyRotation, TagOnly
 use super::evaluation::{Overlap, PIXEL};
 use super::record::{Run, RunResult};
 use super::worlds::{Building, World};
-use super::{Args, Measured, Timing, method_figures, method_tables, progress};
+use super::{Args, Measured, Timing, method_charts, method_figures, method_tables, progress};
 
 /// Standard deviation of the error added to each tag as localised, an axis, px of 0.02 m.
 pub(crate) const REGIMES: [f64; 4] = [0.0, 2.0, 5.0, 10.0];
@@ -176,7 +176,8 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Measured> {
     let runs = runs.concat();
     let timings = timings.concat();
     let mut section = method_tables::section(args, &runs, &timings);
-    section.figures = method_figures::draw(args.seed)?;
+    section.figures = method_charts::draw(&runs);
+    section.figures.extend(method_figures::draw(args.seed)?);
     Ok(Measured { sections: vec![section], runs, timings })
 }
 

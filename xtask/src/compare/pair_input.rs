@@ -111,24 +111,3 @@ impl MapPair {
         walls
     }
 }
-
-/// `count` of `points`, each as far as possible from those before it; the first is the one at
-/// `start` modulo their number.
-pub(crate) fn spread_out(points: &[Point2<f64>], count: usize, start: u64) -> Vec<Point2<f64>> {
-    let mut chosen = Vec::new();
-    let mut distance_sq = vec![f64::INFINITY; points.len()];
-    let mut next = usize::try_from(start).unwrap_or(0).checked_rem(points.len());
-    while let Some(index) = next.filter(|_| chosen.len() < count) {
-        let point = points[index];
-        chosen.push(point);
-        let mut farthest = None;
-        for (i, (d, p)) in distance_sq.iter_mut().zip(points).enumerate() {
-            *d = d.min((p - point).norm_squared());
-            if *d > 0.0 && farthest.is_none_or(|(_, best)| *d > best) {
-                farthest = Some((i, *d));
-            }
-        }
-        next = farthest.map(|(i, _)| i);
-    }
-    chosen
-}

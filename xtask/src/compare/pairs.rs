@@ -2,24 +2,16 @@
 
 use std::path::Path;
 
-use nalgebra::Point2;
-use ogm_core::{ClassThresholds, OccupancyGrid, Outcome, Refusal, Se2, TagEstimate};
+use ogm_core::{Outcome, Refusal, Se2};
 use ogm_merge::{Method, RfidParams, RobotMap, align};
-use ogm_sim::{DriveParams, TagParams, drive, tag_readings};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-use rfid_loc::{FilterParams, localise};
 
 use super::evaluation::Overlap;
-use super::pair_input::{MapPair, Truth, read_pairs, spread_out};
+use super::pair_input::{MapPair, Truth, read_pairs};
+use super::pair_tags::localised_tags;
 use super::record::{Run, RunResult, TransformError, pose_error};
 use super::{Args, Measured, pair_figures, progress};
 use crate::report::{Criterion, Section, Table};
-
-/// Tags are placed where both robots come this near, metres: a tag that nobody passes is none.
-const PASSING: f64 = 2.0;
-
-/// Tags placed on each pair, as many as in the simulated worlds.
-const TAGS: usize = 16;
 
 const METHODS: [(&str, Method); 3] =
     [("#1", Method::Rfid1), ("#2", Method::Rfid2), ("#3", Method::Rfid3)];
@@ -108,68 +100,6 @@ fn errors(pair: &MapPair, truth: &Truth, target_from_source: &Se2) -> TransformE
     let (translation_m, rotation) =
         pose_error(target_from_source, &truth.target_from_source, pair.source_centroid());
     TransformError { translation_m, rotation, ..overlap.errors(target_from_source) }
-}
-
-/// The tags as each robot localises them on its own drive, target first.
-fn localised_tags(pair: &MapPair, seed: u64) -> anyhow::Result<[Vec<TagEstimate>; 2]> {
-    let target_drive = path_through(&pair.target, seed)?;
-    let source_drive = path_through(&pair.source, seed)?;
-    let [in_target, in_source] = match &pair.truth {
-        Some(truth) => {
-            let mut walls = pair.walls_in_both(truth);
-            walls.retain(|&wall| {
-                passes(&source_drive, wall)
-                    && passes(&target_drive, truth.target_from_source * wall)
-            });
-            let in_source = spread_out(&walls, TAGS, seed);
-            let in_target = in_source.iter().map(|&tag| truth.target_from_source * tag).collect();
-            [numbered(in_target, 0), numbered(in_source, 0)]
-        }
-        None => {
-            let walls = |map: &OccupancyGrid, drive: &[Point2<f64>]| {
-                let mut walls = map.occupied_points(&ClassThresholds::default());
-                walls.retain(|&wall| passes(drive, wall));
-                spread_out(&walls, TAGS, seed)
-            };
-            let in_target = walls(&pair.target, &target_drive);
-            let in_source = walls(&pair.source, &source_drive);
-            [numbered(in_target, 0), numbered(in_source, 1000)]
-        }
-    };
-    Ok([localised(&target_drive, &in_target, seed)?, localised(&source_drive, &in_source, seed)?])
-}
-
-fn numbered(tags: Vec<Point2<f64>>, first: u32) -> Vec<(u32, Point2<f64>)> {
-    (first..).zip(tags).collect()
-}
-
-/// A drive through what the map knows as free; none where that is too little.
-fn path_through(map: &OccupancyGrid, seed: u64) -> anyhow::Result<Vec<Point2<f64>>> {
-    let params = DriveParams { seed, length: drive_length(map), ..DriveParams::default() };
-    Ok(drive(map, &params)?.found().unwrap_or_default())
-}
-
-/// Whether a drive comes near enough to a place for a tag there to be read at length.
-fn passes(drive: &[Point2<f64>], place: Point2<f64>) -> bool {
-    drive.iter().step_by(10).any(|point| (point - place).norm() <= PASSING)
-}
-
-fn localised(
-    drive: &[Point2<f64>],
-    tags: &[(u32, Point2<f64>)],
-    seed: u64,
-) -> anyhow::Result<Vec<TagEstimate>> {
-    let readings = tag_readings(drive, tags, &TagParams::default(), seed)?;
-    Ok(localise(&readings, &FilterParams::default())?)
-}
-
-/// Two metres of drive for each free square metre, so that most places are passed more than once,
-/// whatever the size of the map.
-fn drive_length(map: &OccupancyGrid) -> f64 {
-    let thresholds = ClassThresholds::default();
-    let free = map.cells().cells().iter().filter(|&&cell| thresholds.is_free(cell)).count();
-    let area = free as f64 * map.frame().resolution().powi(2);
-    (2.0 * area).clamp(100.0, 1000.0)
 }
 
 /// How the answer of #3 is judged.

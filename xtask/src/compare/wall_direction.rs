@@ -16,6 +16,8 @@ use crate::stats::Summary;
 /// The paper's standard deviation, degrees.
 const PAPER_SD: f64 = 0.5598;
 
+const TURNED: &str = "turned by ";
+
 /// Map headings of X3d, degrees: the axis-aligned wall directions turn by this.
 fn headings() -> impl Iterator<Item = f64> {
     std::iter::once(45.0).chain((1..20).map(|i| f64::from(i) * 18.5))
@@ -84,7 +86,7 @@ pub(super) fn run(args: &Args) -> anyhow::Result<Measured> {
         let turned = survey(&plan, heading.to_radians(), &robots)?.map;
         let results =
             extract_many(default, &turned, heading.to_radians(), args.seed, per_heading, || {})?;
-        let case = format!("turned by {heading}°");
+        let case = heading_case(heading);
         measured.runs.extend(results.iter().map(|r| r.run("X3d", &case, default.name)));
         bar.inc(1);
     }
@@ -99,6 +101,15 @@ pub(super) fn run(args: &Args) -> anyhow::Result<Measured> {
         criteria: if args.quick { Vec::new() } else { criteria(&measured.runs) },
     });
     Ok(measured)
+}
+
+fn heading_case(heading: f64) -> String {
+    format!("{TURNED}{heading}°")
+}
+
+/// The heading of a run of X3d, degrees.
+pub(super) fn heading_of(run: &Run) -> Option<f64> {
+    run.case.strip_prefix(TURNED)?.strip_suffix('°')?.parse().ok()
 }
 
 /// One extraction.

@@ -4,4 +4,5 @@
 mod metamorphic;
 mod numbered;
 mod refusals;
+mod start;
 mod walls;

@@ -26,6 +26,7 @@ fn warp(criterion: &mut Criterion) {
             bencher.iter(|| {
                 let (cells, outside) = (black_box(map.cells()), Occupancy::UNKNOWN);
                 warp_nearest(cells, frame, frame, size, &target_from_source, outside)
+                    .expect("a map of the same size")
             });
         });
     }
@@ -40,7 +41,10 @@ fn warp_and_fuse(criterion: &mut Criterion) {
             .map(|reference_from_map| PlacedMap { map, reference_from_map });
         group.throughput(Throughput::Elements((map.width() * map.height()) as u64));
         group.bench_function(*name, |bencher| {
-            bencher.iter(|| merge(black_box(&placed), &MergeParams::default()));
+            bencher.iter(|| {
+                let merged = merge(black_box(&placed), &MergeParams::default());
+                merged.expect("the box of both is no larger than a grid may be")
+            });
         });
     }
     group.finish();

@@ -8,11 +8,17 @@ use ogm_vector::ogm_vector;
 
 use super::record::{Run, RunResult};
 use super::wall_direction::{errors_deg, heading_of};
+use super::{Measured, Timing};
 use crate::draw::{Chart, Histogram, Layer, Mark, Plan, Series, chart, histogram, plan};
 use crate::report::{Figure, Image};
 
-/// Draws one extraction with the paper's values, and the spread of all.
-pub(super) fn draw(map: &OccupancyGrid, runs: &[Run], seed: u64) -> anyhow::Result<Vec<Figure>> {
+/// Draws one extraction with the defaults, and the spread and the times of all.
+pub(super) fn draw(
+    map: &OccupancyGrid,
+    measured: &Measured,
+    seed: u64,
+) -> anyhow::Result<Vec<Figure>> {
+    let runs = &measured.runs;
     let mut figures = Vec::new();
     let params = line_ransac::Params { seed, ..line_ransac::Params::default() };
     if let Some(extraction) = line_ransac::extract_segments(map, &params).found() {
@@ -56,7 +62,25 @@ pub(super) fn draw(map: &OccupancyGrid, runs: &[Run], seed: u64) -> anyhow::Resu
         });
     }
     figures.push(by_heading(runs));
+    figures.push(times(&measured.timings));
     Ok(figures)
+}
+
+/// How long the extractions of X3a took.
+fn times(timings: &[Timing]) -> Figure {
+    let chosen = timings.iter().filter(|timing| timing.experiment == "X3a");
+    let values: Vec<f64> = chosen.map(|timing| timing.milliseconds).collect();
+    Figure {
+        name: "times-x3a".to_owned(),
+        caption: "X3a: time from the map to its OGM vector; the paper's mean is 939 ms.".to_owned(),
+        image: Image::Svg(histogram(&Histogram {
+            title: "X3a: time of an extraction".to_owned(),
+            x_label: "ms".to_owned(),
+            values: &values,
+            bins: 40,
+            marks: Vec::new(),
+        })),
+    }
 }
 
 /// Errors of X3d over the heading of the map.

@@ -6,6 +6,9 @@ use anyhow::Context;
 
 use crate::report::{self, Image, Report};
 
+/// Sections whose result the document quotes; the others are worked examples.
+const QUOTED: [&str; 3] = ["X3", "X4", "pairs"];
+
 /// Figure that the document shows, as `docs/<name>.png` beside it.
 const PICTURE: &str = "merge";
 
@@ -14,11 +17,12 @@ pub(super) fn into_document(document: &Path, report: &Report) -> anyhow::Result<
     let text = std::fs::read_to_string(document)
         .with_context(|| format!("cannot read {}", document.display()))?;
     let mut content = String::new();
-    for section in &report.sections {
+    for section in report.sections.iter().filter(|section| QUOTED.contains(&section.id.as_str())) {
         // The first table of a section is its result; the others explain it.
         if let Some(table) = section.tables.first() {
             content.push_str(&format!("### {}\n\n", section.title));
             content.push_str(&report::markdown_table(table));
+            content.push_str(&format!("\n{}\n", table.caption));
             content.push('\n');
         }
     }

@@ -97,7 +97,7 @@ pub(super) fn run(args: &Args) -> anyhow::Result<Measured> {
         title: "The direction of a building (section 5.1)".to_owned(),
         analysis: ANALYSIS.to_owned(),
         tables: vec![directions(args, &measured.runs), times(&measured.timings)],
-        figures: direction_figures::draw(&map, &measured.runs, args.seed)?,
+        figures: direction_figures::draw(&map, &measured, args.seed)?,
         criteria: if args.quick { Vec::new() } else { criteria(&measured.runs) },
     });
     Ok(measured)

@@ -130,6 +130,7 @@ impl Search<'_> {
             result.termination = divergence;
             result.pairs = matcher.pairs.len();
             result.rmse = matcher.rmse();
+            result.unobservable = self.unobservable(matcher);
         }
         Ok(result)
     }

@@ -9,7 +9,7 @@ use ogm_core::Se2;
 pub struct Alignment {
     /// Maps source points into the target map; it includes the start.
     pub target_from_source: Se2,
-    /// How it ended. Only [`Termination::Converged`] is an answer to rely on.
+    /// How it ended. Short of [`Termination::Converged`] it is no better than its start promised.
     pub termination: Termination,
     /// Iterations done.
     pub iterations: usize,

@@ -136,7 +136,7 @@ impl IcpParams {
         }
         let factor = self.gate_factor;
         require(0.0 < factor && factor < 1.0, "gate_factor", "in (0, 1)", factor)?;
-        let (first, last) = (self.initial_gate.metres, self.final_gate.metres);
+        let (first, last) = (self.initial_gate.resolve(1.0), self.final_gate.resolve(1.0));
         require(
             first.is_finite() || last.is_infinite(),
             "final_gate",

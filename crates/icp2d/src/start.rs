@@ -1,7 +1,5 @@
 //! A better start where the given one lies outside the basin of the alignment.
 
-use std::f64::consts::PI;
-
 use nalgebra::{Point2, Vector2};
 use ogm_core::{Length, Outcome, Refusal, Se2};
 
@@ -50,7 +48,9 @@ const BASINS: usize = 5;
 /// One voter of so many is asked about each trial of the first sweep.
 const COARSE: usize = 4;
 /// Most trial shifts from the start in one direction.
-const MAX_STEPS: f64 = 50.0;
+const MAX_STEPS: f64 = 20.0;
+/// Furthest trial turn, radians: with the half degree of the finest turn, 115 of them.
+const MAX_TURN: f64 = 0.5;
 /// Halvings of the step on the way to the top.
 const HALVINGS: usize = 3;
 
@@ -76,9 +76,12 @@ pub fn search_start(
     let spacing = target.spacing().max(source.spacing());
     let (reach, step) = (params.reach.resolve(spacing), params.step.resolve(spacing));
     let steps = reach / step;
-    require((0.0..=MAX_STEPS).contains(&steps), "reach", "0 to 50 steps", steps)?;
+    require((0.0..=MAX_STEPS).contains(&steps), "reach", "0 to 20 steps", steps)?;
     let rotation = params.max_rotation;
-    require((0.0..=PI).contains(&rotation), "max_rotation", "0 to half a turn", rotation)?;
+    require((0.0..=MAX_TURN).contains(&rotation), "max_rotation", "0 to 0.5 rad", rotation)?;
+    for (name, share) in [("min_gain", params.min_gain), ("far_penalty", params.far_penalty)] {
+        require((0.0..=1.0).contains(&share), name, "in [0, 1]", share)?;
+    }
     check_start(&init_target_from_source)?;
 
     let index = SidedIndex::new(target);

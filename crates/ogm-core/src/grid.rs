@@ -87,21 +87,18 @@ impl<T> Grid<T> {
     /// The cell at `index`, or `None` outside.
     #[must_use]
     pub fn get(&self, index: CellIndex) -> Option<&T> {
-        if index.column < self.width {
-            self.cells.get(index.row * self.width + index.column)
-        } else {
-            None
-        }
+        self.position(index).map(|position| &self.cells[position])
     }
 
     /// The cell at `index`, or `None` outside.
     #[must_use]
     pub fn get_mut(&mut self, index: CellIndex) -> Option<&mut T> {
-        if index.column < self.width {
-            self.cells.get_mut(index.row * self.width + index.column)
-        } else {
-            None
-        }
+        self.position(index).map(|position| &mut self.cells[position])
+    }
+
+    fn position(&self, index: CellIndex) -> Option<usize> {
+        let inside = index.column < self.width && index.row < self.height();
+        inside.then(|| index.row * self.width + index.column)
     }
 
     /// The column and row of the cell at `position` in [`cells`](Self::cells).
@@ -153,6 +150,7 @@ mod tests {
         let grid = Grid::new(2, 2, vec![0, 1, 2, 3]).unwrap();
         assert_eq!(grid.get(CellIndex { column: 2, row: 0 }), None);
         assert_eq!(grid.get(CellIndex { column: 0, row: 2 }), None);
+        assert_eq!(grid.get(CellIndex { column: 1, row: usize::MAX / 2 + 1 }), None);
         assert_eq!(grid.get(CellIndex { column: 1, row: 1 }), Some(&3));
     }
 }

@@ -41,7 +41,8 @@ impl NearestCells {
             .map(|&[column, row]| CellIndex { column: column as usize, row: row as usize })
     }
 
-    /// Squared distance in cells to the nearest set cell, for every cell.
+    /// Squared distance in cells to the nearest set cell, for every cell; beyond 65 535 cells it
+    /// saturates.
     #[must_use]
     pub fn distance_sq(&self) -> Grid<u32> {
         let mut distance = self.nearest.map(|_| 0);
@@ -52,7 +53,7 @@ impl NearestCells {
                 (0_u32..).zip(output.iter_mut().zip(nearest))
             {
                 let (dx, dy) = (column.abs_diff(near_column), row.abs_diff(near_row));
-                *cell = dx * dx + dy * dy;
+                *cell = dx.saturating_mul(dx).saturating_add(dy.saturating_mul(dy));
             }
         }
         distance
@@ -60,7 +61,7 @@ impl NearestCells {
 }
 
 /// Squared Euclidean distance, in cells², from every cell to the nearest set cell of `mask`;
-/// exact. `None` if no cell is set.
+/// exact up to 65 535 cells, where it saturates. `None` if no cell is set.
 #[must_use]
 pub fn l2_distance_sq(mask: &Grid<bool>) -> Option<Grid<u32>> {
     NearestCells::new(mask).map(|nearest| nearest.distance_sq())

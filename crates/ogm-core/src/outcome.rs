@@ -110,11 +110,11 @@ pub enum Refusal {
         need: usize,
     },
     /// The maps disagree where they overlap.
-    #[error("contradiction: {conflicts} of {compared} cells known in both maps disagree")]
+    #[error("contradiction: {conflicts} of {compared} wall cells find no wall in the other map")]
     Contradiction {
-        /// Cells occupied in one map and free in the other.
+        /// Wall cells without a wall nearby in the other map.
         conflicts: usize,
-        /// Cells known in both.
+        /// Wall cells that lie where the other map knows.
         compared: usize,
     },
     /// More than one answer fits.

@@ -31,6 +31,10 @@ pub fn warp_nearest<T: Copy>(
     let (width, height) = target_size;
     let mut target = Grid::filled(width, height, outside)?;
     let walk = CellWalk::new(source_frame, target_frame, motion);
+    if !walk.is_finite() {
+        // So far away that cells are lost in rounding: nothing of the source is here.
+        return Ok(target);
+    }
     let (columns, rows) = (source.width(), source.height());
     for (row, output) in target.cells_mut().chunks_exact_mut(width).enumerate() {
         let start = walk.row_start(row);
@@ -79,6 +83,11 @@ impl CellWalk {
             step: (source_cells(0.5 + baseline, 0.5) - origin) / baseline,
             row_step: (source_cells(0.5, 0.5 + baseline) - origin) / baseline,
         }
+    }
+
+    fn is_finite(&self) -> bool {
+        let numbers = self.origin.coords.iter().chain(&self.step).chain(&self.row_step);
+        numbers.fold(0.0, |sum, x| sum + x).is_finite()
     }
 
     fn row_start(&self, row: usize) -> Point2<f64> {
@@ -191,6 +200,17 @@ mod tests {
                 let inside = (0..8).contains(&column) && (0..6).contains(&row);
                 prop_assert_eq!(value, if inside { row * 8 + column } else { -1 });
             }
+        }
+    }
+
+    #[test]
+    fn a_source_beyond_all_reach_is_outside() {
+        let frame = GridFrame::new(0.05, Se2::identity()).unwrap();
+        for x in [1e12, f64::MAX] {
+            let target_from_source = Se2::new(x, 0.0, 0.3);
+            let warped =
+                warp_nearest(&numbered(2, 2), &frame, &frame, (3, 3), &target_from_source, -1);
+            assert!(warped.unwrap().cells().iter().all(|&cell| cell == -1), "{x}");
         }
     }
 

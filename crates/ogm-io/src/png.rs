@@ -11,6 +11,9 @@ use crate::raster::{Channels, Raster, Samples, cell_count};
 /// For metadata and one row; the pixels are bounded by [`cell_count`] and by [`plausible`].
 const SCRATCH_BYTES: u64 = 64 << 20;
 
+/// Deflate expands at most this many fold.
+const DEFLATE_RATIO: usize = 1032;
+
 /// Decodes a PNG of any colour type, palettes resolved.
 pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, MapImageError> {
     let [width, height] = stated_size(bytes).ok_or_else(|| refusal("the PNG has no header"))?;
@@ -39,6 +42,12 @@ pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, MapImageError> {
         ColorType::Rgba16 => (Channels::RgbAlpha, true),
         _ => return Err(refusal("its colour type is not one that PNG defines")),
     };
+    let bits = usize::from(decoder.original_color_type().bits_per_pixel());
+    let need = (cells * bits).div_ceil(8);
+    let found = bytes.len().saturating_mul(DEFLATE_RATIO);
+    if need > found {
+        return Err(MapImageError::WrongLength { width, height, need, found });
+    }
     let mut data = vec![0; cells * channels.count() * if wide { 2 } else { 1 }];
     decoder.read_image(&mut data).map_err(png_error)?;
     let (max, samples) = if wide {
@@ -81,7 +90,7 @@ fn stated_size(bytes: &[u8]) -> Option<[usize; 2]> {
 /// The most pixels that a PNG of this length can hold: deflate expands at most 1032-fold, and a
 /// byte holds at most eight pixels.
 fn plausible(bytes: &[u8]) -> usize {
-    bytes.len().saturating_mul(8 * 1032)
+    bytes.len().saturating_mul(8 * DEFLATE_RATIO)
 }
 
 /// Whether the chain of chunks reaches a complete `IEND`.

@@ -32,11 +32,12 @@ mod params;
 mod recipes;
 mod report;
 mod stop;
+mod verify;
 
 pub use align::{Method, RobotMap, align, merge};
 pub use error::MergeError;
-pub use params::{MergeParams, RfidParams};
-pub use report::{Evidence, MergeReport, WallDirection};
+pub use params::{Anchor, MergeParams, RfidParams};
+pub use report::{Evidence, MergeReport, WallAgreement, WallDirection, Warning};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -2,20 +2,20 @@
 
 use icp2d::{IcpParams, StartParams};
 use ogm_core::ClassThresholds;
-use rfid_loc::{FilterParams, RotationParams, SelectionParams, TagOnlyParams};
+use rfid_loc::{RotationParams, SelectionParams, TagOnlyParams};
 
 /// Parameters of methods #1, #1b, #2 and #3; each field is that of the crate which does the step.
 #[derive(Debug, Clone)]
 pub struct RfidParams {
-    /// How tags are localised from readings.
-    pub filter: FilterParams,
     /// How sure the tags must be.
     pub selection: SelectionParams,
-    /// How the tags' rotation is found.
+    /// How the tags' rotation is found in #1b, #2 and #3; #1 has its own in `tag_only`.
     pub rotation: RotationParams,
     /// Which form of method #1.
     pub tag_only: TagOnlyParams,
-    /// How walls are extracted.
+    /// Which tags carry the translation of #2.
+    pub anchor: Anchor,
+    /// How walls are extracted; its classes are replaced by `thresholds`.
     pub lines: line_ransac::Params,
     /// How their direction is found.
     pub vector: ogm_vector::Params,
@@ -24,21 +24,35 @@ pub struct RfidParams {
     pub start: Option<StartParams>,
     /// How the transform is refined.
     pub icp: IcpParams,
-    /// What counts as occupied and free.
+    /// Least share of the common walls that must agree under the answer of #3: 0.45. Maps of
+    /// different buildings reached 0.35 where they fit best; drifted maps of one went down to 0.53.
+    pub min_wall_agreement: f64,
+    /// What counts as occupied and free in every stage before the fusion.
     pub thresholds: ClassThresholds,
+}
+
+/// Which tags carry the translation of #2.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum Anchor {
+    /// The surest (Eqs. 8, 9).
+    #[default]
+    BestTag,
+    /// The centroid of the three.
+    AllTags,
 }
 
 impl Default for RfidParams {
     fn default() -> Self {
         Self {
-            filter: FilterParams::default(),
             selection: SelectionParams::default(),
             rotation: RotationParams::default(),
             tag_only: TagOnlyParams::default(),
+            anchor: Anchor::default(),
             lines: line_ransac::Params::default(),
             vector: ogm_vector::Params::default(),
             start: Some(StartParams::default()),
             icp: IcpParams::default(),
+            min_wall_agreement: 0.45,
             thresholds: ClassThresholds::default(),
         }
     }

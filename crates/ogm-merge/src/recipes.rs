@@ -3,12 +3,13 @@
 use icp2d::{Termination, WallPoints};
 use ogm_core::{OccupancyGrid, Refusal, Se2};
 use rfid_loc::{
-    AMBIGUOUS_ABOVE, QuadrantConfidence, TagPair, anchor_on_best_tag, common_tags,
-    least_squares_transform, quadrant, select_tags, tag_only_transform, tag_rotation,
+    AMBIGUOUS_ABOVE, QuadrantConfidence, TagPair, anchor_on_all_tags, anchor_on_best_tag,
+    common_tags, least_squares_transform, quadrant, select_tags, tag_only_transform, tag_rotation,
 };
 
 use crate::stop::Stop;
-use crate::{Evidence, RfidParams, RobotMap, WallDirection};
+use crate::verify::wall_agreement;
+use crate::{Anchor, Evidence, RfidParams, RobotMap, WallDirection};
 
 /// Method #1: three common tags and nothing else (Tsardoulias et al., section 5.2).
 pub(crate) fn tags_alone(
@@ -55,8 +56,11 @@ pub(crate) fn tags_and_walls(
         let (residual_rad, limit_rad) = (agreed.residual.abs(), AMBIGUOUS_ABOVE);
         return Err(Refusal::Ambiguous { residual_rad, limit_rad }.into());
     }
-    let target_from_source = anchor_on_best_tag(agreed.theta, &tags)?;
-    seen.start_target_from_source = Some(target_from_source);
+    let target_from_source = match params.anchor {
+        Anchor::BestTag => anchor_on_best_tag(agreed.theta, &tags)?,
+        Anchor::AllTags => anchor_on_all_tags(agreed.theta, &tags)?,
+    };
+    seen.unrefined_target_from_source = Some(target_from_source);
     Ok(target_from_source)
 }
 
@@ -78,6 +82,7 @@ pub(crate) fn tags_walls_and_icp(
         }
         None => start_target_from_source,
     };
+    seen.start_target_from_source = Some(start_target_from_source);
     let alignment =
         icp2d::align(&target_points, &source_points, start_target_from_source, &params.icp)?
             .into_result()?;
@@ -88,6 +93,12 @@ pub(crate) fn tags_walls_and_icp(
     if let Termination::MovedTooFar { .. } = alignment.termination {
         let (iterations, rmse_m) = (alignment.iterations, alignment.rmse);
         return Err(Refusal::NotConverged { iterations, rmse_m }.into());
+    }
+    let agreement = wall_agreement(target.map, source.map, target_from_source, &params.thresholds);
+    seen.wall_agreement = Some(agreement);
+    if agreement.share().is_none_or(|share| share < params.min_wall_agreement) {
+        let conflicts = agreement.compared - agreement.agreeing;
+        return Err(Refusal::Contradiction { conflicts, compared: agreement.compared }.into());
     }
     Ok(target_from_source)
 }
@@ -108,7 +119,8 @@ pub(crate) fn wall_direction(
     map: &OccupancyGrid,
     params: &RfidParams,
 ) -> Result<WallDirection, Refusal> {
-    let extraction = line_ransac::extract_segments(map, &params.lines).into_result()?;
+    let lines = line_ransac::Params { classes: params.thresholds, ..params.lines.clone() };
+    let extraction = line_ransac::extract_segments(map, &lines).into_result()?;
     let vector = ogm_vector::ogm_vector(&extraction.segments, &params.vector).into_result()?;
     Ok(WallDirection { extraction, vector })
 }

@@ -1,10 +1,10 @@
 //! What each stage of a merge saw and decided.
 
-use icp2d::Alignment;
+use icp2d::{Alignment, Termination};
 use line_ransac::Extraction;
 use ogm_core::{Outcome, Se2};
 use ogm_vector::OgmVector;
-use rfid_loc::{Quadrant, TagPair, TagRotation};
+use rfid_loc::{Quadrant, QuadrantConfidence, TagPair, TagRotation};
 
 use crate::Method;
 
@@ -32,10 +32,84 @@ pub struct Evidence {
     pub walls: Option<[WallDirection; 2]>,
     /// The quarter turn that tags and walls agree on.
     pub quadrant: Option<Quadrant>,
-    /// The transform before refinement.
+    /// What tags and walls give, which is the answer of #2.
+    pub unrefined_target_from_source: Option<Se2>,
+    /// Where the refinement started, after looking around that.
     pub start_target_from_source: Option<Se2>,
     /// The refinement.
     pub refinement: Option<Alignment>,
+    /// How far the walls of the two maps agree under the refined transform.
+    pub wall_agreement: Option<WallAgreement>,
+}
+
+/// Walls that one map shows where the other has been.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct WallAgreement {
+    /// Wall cells of either map that lie within two cells of a wall of the other.
+    pub agreeing: usize,
+    /// Wall cells of either map that lie where the other knows.
+    pub compared: usize,
+}
+
+impl WallAgreement {
+    /// Share of the compared cells that agree, or `None` if nothing could be compared.
+    #[must_use]
+    pub fn share(&self) -> Option<f64> {
+        (self.compared > 0).then(|| self.agreeing as f64 / self.compared as f64)
+    }
+}
+
+/// What makes an answer less sure than it looks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The maps place the tags at different distances from each other.
+    #[error("the maps disagree about the distances between tags: one may have been moved")]
+    TagsMismatch,
+    /// The walls of one map have no common direction.
+    #[error("the walls of one map are hardly rectangular")]
+    WeakWalls,
+    /// One map has walls of a single direction.
+    #[error("one map has walls of a single direction")]
+    SingleWallDirection,
+    /// Tags and walls differ by more than 20 degrees.
+    #[error("tags and walls differ by more than 20 degrees")]
+    QuadrantResidual,
+    /// The common walls leave one direction open.
+    #[error(
+        "the common walls leave one direction open, as in a corridor; along it the tags decide"
+    )]
+    Unobservable,
+    /// The refinement did not settle.
+    #[error("the refinement did not settle within its iterations")]
+    NotSettled,
+    /// The refinement could not improve on its start.
+    #[error("the refinement could not improve on its start, which was kept")]
+    NotImproved,
+}
+
+impl Evidence {
+    /// What makes the answer less sure than it looks.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<Warning> {
+        let wall_vectors = || self.walls.iter().flatten().map(|walls| &walls.vector);
+        let ended = self.refinement.map(|refinement| refinement.termination);
+        [
+            (self.tag_rotation.is_some_and(|by_tags| by_tags.mismatch), Warning::TagsMismatch),
+            (wall_vectors().any(|vector| vector.weak), Warning::WeakWalls),
+            (wall_vectors().any(|vector| vector.single_direction), Warning::SingleWallDirection),
+            (
+                self.quadrant.is_some_and(|q| q.confidence == QuadrantConfidence::Warning),
+                Warning::QuadrantResidual,
+            ),
+            (self.refinement.is_some_and(|r| r.unobservable.is_some()), Warning::Unobservable),
+            (ended == Some(Termination::IterationLimit), Warning::NotSettled),
+            (matches!(ended, Some(Termination::WorseFit { .. })), Warning::NotImproved),
+        ]
+        .into_iter()
+        .filter_map(|(applies, warning)| applies.then_some(warning))
+        .collect()
+    }
 }
 
 /// The straight walls of one map and the direction they give.

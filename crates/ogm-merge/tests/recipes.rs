@@ -172,7 +172,8 @@ fn valid_input_with_too_little_in_it_is_refused_with_its_reason() {
         tag.position = world.source_tags[0].position;
     }
     let together = RobotMap { tags: &together, ..world.source() };
-    assert!(refusal(Method::Rfid2, &world.target(), &together).is_some());
+    let reason = refusal(Method::Rfid2, &world.target(), &together);
+    assert!(matches!(reason, Some(Refusal::TagsCoincide { .. })), "{reason:?}");
 }
 
 #[test]

@@ -77,10 +77,16 @@ fn path_through(map: &OccupancyGrid, params: &DriveParams) -> Result<Vec<Point2<
     while left > 0.0 {
         let there = far_node(&space, &nodes, &points, &mut rng);
         let way = wander(&space, &[here, there], &mut rng).ok_or_else(|| refusal(nodes.len()))?;
-        let driven: f64 = way.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
+        for ends in way.windows(2) {
+            let piece = ends[1] - ends[0];
+            let share = (left / piece.norm()).min(1.0);
+            if left > 0.0 && share > 0.0 {
+                points.push(ends[0] + piece * share);
+            }
+            left -= piece.norm();
+        }
         // Ends also where rounding leaves no second node to go to.
-        left -= driven.max(params.step);
-        points.extend(way.into_iter().skip(1));
+        left -= params.step;
         here = there;
     }
     let is_clear = |point| space.is_clear(point, CURVE_CLEARANCE);
@@ -202,6 +208,15 @@ mod tests {
             .map(|h| ogm_core::wrap_angle(h[1] - h[0]).abs())
             .sum();
         assert!(turned / length > 0.3, "{} rad a metre", turned / length);
+    }
+
+    #[test]
+    fn a_short_drive_in_a_vast_map_is_as_short_as_asked() {
+        let frame = GridFrame::new(1e6, Se2::identity()).unwrap();
+        let map = OccupancyGrid::new(frame, Grid::filled(40, 40, Occupancy::FREE).unwrap());
+        let path = path(&map, &DriveParams { length: 20.0, ..DriveParams::default() });
+        let length: f64 = path.windows(2).map(|ends| (ends[1] - ends[0]).norm()).sum();
+        assert!(length <= 20.1, "{length} m");
     }
 
     #[test]

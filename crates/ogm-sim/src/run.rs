@@ -14,6 +14,9 @@ use crate::path::{headings, smooth};
 use crate::tags::read_along;
 use crate::{FloorPlan, PairParams, Robot, SimError};
 
+/// Furthest coordinate of a path, metres: cells are counted exactly up to there.
+const MAX_COORDINATE: f64 = 1e6;
+
 /// A robot keeps this far from everything, metres.
 const CLEARANCE: f64 = 0.2;
 
@@ -114,15 +117,15 @@ fn map_along_paths(
     params.check()?;
     for (_, path) in paths {
         let mut coordinates = path.iter().flat_map(|point| [point.x, point.y]);
-        if let Some(wrong) = coordinates.find(|x| !x.is_finite()) {
-            check("a coordinate of the path", wrong, "finite", false)?;
+        if let Some(wrong) = coordinates.find(|x| x.is_nan() || x.abs() > MAX_COORDINATE) {
+            check("a coordinate of the path", wrong, "within 1000 km", false)?;
         }
         let points = path.len() as f64;
         check("points of the path", points, "at least 1", points > 0.0)?;
     }
     let theta = world_from_map.theta();
-    let finite = world_from_map.is_finite();
-    check("world_from_map (its heading)", theta, "finite in all parts", finite)?;
+    let is_near = world_from_map.translation().amax() <= MAX_COORDINATE && theta.is_finite();
+    check("world_from_map (its heading)", theta, "finite, and its place within 1000 km", is_near)?;
     let map_from_world = world_from_map.inverse();
     let drives: Vec<Drive> = paths
         .iter()

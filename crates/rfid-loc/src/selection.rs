@@ -76,8 +76,8 @@ pub fn select_tags(pairs: &[TagPair], params: &SelectionParams) -> Outcome<[TagP
     };
     for (pair, need) in [(best, params.best_above), (third, params.third_above)] {
         let reached = pair.certainty();
-        // Certainties are finite: `common_tags` checked them.
-        if reached <= need {
+        let is_enough = reached > need;
+        if !is_enough {
             return Outcome::Refused(Refusal::LowCertainty { best: reached, need });
         }
     }
@@ -89,8 +89,9 @@ fn three_apart(pairs: &[TagPair], params: &SelectionParams) -> Option<[TagPair; 
     let mut chosen: Vec<TagPair> = Vec::with_capacity(3);
     for pair in pairs.iter().take_while(|pair| pair.certainty() > params.third_above) {
         let apart = |better: &TagPair| {
-            let between = pair.target.position - better.target.position;
-            between.norm() >= params.min_separation
+            let in_target = (pair.target.position - better.target.position).norm();
+            let in_source = (pair.source.position - better.source.position).norm();
+            in_target.min(in_source) >= params.min_separation
         };
         if chosen.len() < 3 && chosen.iter().all(apart) {
             chosen.push(*pair);

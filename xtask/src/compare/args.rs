@@ -81,6 +81,9 @@ impl Args {
         if cfg!(debug_assertions) {
             bail!("compare needs a release build: run `cargo xtask compare`");
         }
+        if self.seed > u64::from(u32::MAX) {
+            bail!("the first seed is {}; use one up to {}", self.seed, u32::MAX);
+        }
         Ok(())
     }
 }

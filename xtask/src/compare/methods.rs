@@ -5,7 +5,7 @@ use std::time::Instant;
 use icp2d::{IcpParams, Pairing};
 use nalgebra::Point2;
 use ogm_core::{Length, OccupancyGrid, Outcome};
-use ogm_merge::{Method, RfidParams, RobotMap, align};
+use ogm_merge::{Anchor, Method, RfidParams, RobotMap, align};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rfid_loc::{RotationCentre, TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation};
 
@@ -31,7 +31,7 @@ pub(crate) struct Variant {
 }
 
 /// The defaults first.
-pub(crate) const VARIANTS: [Variant; 14] = [
+pub(crate) const VARIANTS: [Variant; 16] = [
     Variant { name: "#1", method: Method::Rfid1, params: |_| RfidParams::default() },
     Variant { name: "#2", method: Method::Rfid2, params: |_| RfidParams::default() },
     Variant { name: "#3", method: Method::Rfid3, params: |_| RfidParams::default() },
@@ -110,6 +110,16 @@ pub(crate) const VARIANTS: [Variant; 14] = [
         },
     },
     Variant {
+        name: "#2 all three tags carry the translation",
+        method: Method::Rfid2,
+        params: |_| RfidParams { anchor: Anchor::AllTags, ..Default::default() },
+    },
+    Variant {
+        name: "#3 from where #2 ends",
+        method: Method::Rfid3,
+        params: |_| icp(IcpParams::default()),
+    },
+    Variant {
         name: "#3 reciprocal only",
         method: Method::Rfid3,
         params: |_| icp(IcpParams { pairing: Pairing::Reciprocal, ..Default::default() }),
@@ -137,8 +147,9 @@ fn tag_only(tag_only: TagOnlyParams) -> RfidParams {
     RfidParams { tag_only, ..Default::default() }
 }
 
+/// Refinement from where #2 ends, as the paper has it.
 fn icp(icp: IcpParams) -> RfidParams {
-    RfidParams { icp, ..Default::default() }
+    RfidParams { icp, start: None, ..Default::default() }
 }
 
 fn corner(map: &OccupancyGrid) -> Point2<f64> {

@@ -1,7 +1,7 @@
 //! The tags that a pair of real maps is given, as its robots localise them.
 
 use nalgebra::Point2;
-use ogm_core::{ClassThresholds, OccupancyGrid, TagEstimate};
+use ogm_core::{ClassThresholds, OccupancyGrid, Refusal, TagEstimate};
 use ogm_sim::{DriveParams, TagParams, drive, tag_readings};
 use rfid_loc::{FilterParams, localise};
 
@@ -14,9 +14,18 @@ const PASSING: f64 = 2.0;
 const TAGS: usize = 16;
 
 /// The tags as each robot localises them on its own drive, target first.
-pub(super) fn localised_tags(pair: &MapPair, seed: u64) -> anyhow::Result<[Vec<TagEstimate>; 2]> {
-    let target_drive = path_through(&pair.target, seed)?;
-    let source_drive = path_through(&pair.source, seed)?;
+///
+/// The inner refusal is that of a map with nowhere to drive. Maps that do not match get the same
+/// tags at unrelated walls: they must be refused for their walls, not for a lack of tags.
+pub(super) fn localised_tags(
+    pair: &MapPair,
+    seed: u64,
+) -> anyhow::Result<Result<[Vec<TagEstimate>; 2], Refusal>> {
+    let (target_drive, source_drive) =
+        match (path_through(&pair.target, seed)?, path_through(&pair.source, seed)?) {
+            (Ok(target), Ok(source)) => (target, source),
+            (Err(refusal), _) | (_, Err(refusal)) => return Ok(Err(refusal)),
+        };
     let [in_target, in_source] = match &pair.truth {
         Some(truth) => {
             let mut walls = pair.walls_in_both(truth);
@@ -26,7 +35,7 @@ pub(super) fn localised_tags(pair: &MapPair, seed: u64) -> anyhow::Result<[Vec<T
             });
             let in_source = spread_out(&walls, TAGS, seed);
             let in_target = in_source.iter().map(|&tag| truth.target_from_source * tag).collect();
-            [numbered(in_target, 0), numbered(in_source, 0)]
+            [in_target, in_source]
         }
         None => {
             let walls = |map: &OccupancyGrid, drive: &[Point2<f64>]| {
@@ -34,22 +43,19 @@ pub(super) fn localised_tags(pair: &MapPair, seed: u64) -> anyhow::Result<[Vec<T
                 walls.retain(|&wall| passes(drive, wall));
                 spread_out(&walls, TAGS, seed)
             };
-            let in_target = walls(&pair.target, &target_drive);
-            let in_source = walls(&pair.source, &source_drive);
-            [numbered(in_target, 0), numbered(in_source, 1000)]
+            [walls(&pair.target, &target_drive), walls(&pair.source, &source_drive)]
         }
     };
-    Ok([localised(&target_drive, &in_target, seed)?, localised(&source_drive, &in_source, seed)?])
+    Ok(Ok([localised(&target_drive, in_target, seed)?, localised(&source_drive, in_source, seed)?]))
 }
 
-fn numbered(tags: Vec<Point2<f64>>, first: u32) -> Vec<(u32, Point2<f64>)> {
-    (first..).zip(tags).collect()
-}
-
-/// A drive through what the map knows as free; none where that is too little.
-fn path_through(map: &OccupancyGrid, seed: u64) -> anyhow::Result<Vec<Point2<f64>>> {
+/// A drive through what the map knows as free.
+fn path_through(
+    map: &OccupancyGrid,
+    seed: u64,
+) -> anyhow::Result<Result<Vec<Point2<f64>>, Refusal>> {
     let params = DriveParams { seed, length: drive_length(map), ..DriveParams::default() };
-    Ok(drive(map, &params)?.found().unwrap_or_default())
+    Ok(drive(map, &params)?.into_result())
 }
 
 /// Whether a drive comes near enough to a place for a tag there to be read at length.
@@ -59,10 +65,11 @@ fn passes(drive: &[Point2<f64>], place: Point2<f64>) -> bool {
 
 fn localised(
     drive: &[Point2<f64>],
-    tags: &[(u32, Point2<f64>)],
+    places: Vec<Point2<f64>>,
     seed: u64,
 ) -> anyhow::Result<Vec<TagEstimate>> {
-    let readings = tag_readings(drive, tags, &TagParams::default(), seed)?;
+    let tags: Vec<_> = (0..).zip(places).collect();
+    let readings = tag_readings(drive, &tags, &TagParams::default(), seed)?;
     Ok(localise(&readings, &FilterParams::default())?)
 }
 

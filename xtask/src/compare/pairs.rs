@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use ogm_core::{Outcome, Refusal, Se2};
-use ogm_merge::{Method, RfidParams, RobotMap, align};
+use ogm_core::{Outcome, Se2};
+use ogm_merge::{Evidence, Method, RfidParams, RobotMap, align};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::evaluation::Overlap;
@@ -20,17 +20,19 @@ const ANALYSIS: &str = "\
 The maps are real, the tags are not. Each robot drives through the free space that its own map \
 knows; sixteen tags are placed by seed, spread over the walls that both maps saw and both drives \
 pass within 2 m under the true transform; ranges to them have the paper's noise. From there on the code \
-path is that of the simulation. Pairs that must be refused get tags that only one map knows.
+path is that of the simulation. Pairs that must be refused get the same tags at unrelated walls, so \
+that #3 has to refuse them for what the walls say; #1 and #2 do not look at that.
 
 Errors are taken at the centroid of the source's known cells. An answer is inside when it is \
 within the pair's own tolerance; strict when within one cell of the target and 0.5°. The truth of \
 pairs from one corrected trajectory is exact; of the others it is good to 0.1 to 0.25 m.";
 
 /// What the three methods answered on one pair.
+#[derive(Default)]
 struct Answers {
     runs: Vec<Run>,
-    /// Localised in both maps, whatever their certainty.
-    common_tags: usize,
+    /// What #3 saw.
+    evidence: Evidence,
     /// What #3 answered.
     target_from_source: Option<Se2>,
 }
@@ -66,17 +68,27 @@ pub(super) fn run(args: &Args, folder: &Path) -> anyhow::Result<Measured> {
 }
 
 fn answer(pair: &MapPair, seed: u64) -> anyhow::Result<Answers> {
-    let [target_tags, source_tags] = localised_tags(pair, seed)?;
+    let run = |variant: &str, result| Run {
+        experiment: "pairs",
+        case: pair.name.clone(),
+        variant: variant.to_owned(),
+        seed,
+        result,
+    };
+    let [target_tags, source_tags] = match localised_tags(pair, seed)? {
+        Ok(tags) => tags,
+        Err(refusal) => {
+            let refused = METHODS.map(|(name, _)| run(name, RunResult::Refused(refusal.clone())));
+            return Ok(Answers { runs: refused.to_vec(), ..Answers::default() });
+        }
+    };
     let target = RobotMap { map: &pair.target, tags: &target_tags };
     let source = RobotMap { map: &pair.source, tags: &source_tags };
     let params = RfidParams::default();
-    let mut runs = Vec::new();
-    let mut common_tags = 0;
-    let mut answered_target_from_source = None;
+    let mut answers = Answers::default();
     for (name, method) in METHODS {
         let report = align(method, &target, &source, &params)?;
-        common_tags = report.evidence.common_tags.len();
-        answered_target_from_source = report.outcome.clone().found();
+        answers.target_from_source = report.outcome.clone().found();
         let result = match (report.outcome, &pair.truth) {
             (Outcome::Refused(refusal), _) => RunResult::Refused(refusal),
             (Outcome::Found(target_from_source), Some(truth)) => {
@@ -84,15 +96,10 @@ fn answer(pair: &MapPair, seed: u64) -> anyhow::Result<Answers> {
             }
             (Outcome::Found(_), None) => RunResult::FalseMerge,
         };
-        runs.push(Run {
-            experiment: "pairs",
-            case: pair.name.clone(),
-            variant: name.to_owned(),
-            seed,
-            result,
-        });
+        answers.runs.push(run(name, result));
+        answers.evidence = report.evidence;
     }
-    Ok(Answers { runs, common_tags, target_from_source: answered_target_from_source })
+    Ok(answers)
 }
 
 fn errors(pair: &MapPair, truth: &Truth, target_from_source: &Se2) -> TransformError {
@@ -158,7 +165,7 @@ fn table(pairs: &[MapPair], answers: &[Answers], verdicts: &[Verdict]) -> Table 
                 Some(truth) => format!("{:.2} m", truth.tolerance_m),
                 None => "no match".to_owned(),
             },
-            answers.common_tags.to_string(),
+            answers.evidence.common_tags.len().to_string(),
         ];
         row.extend(answers.runs.iter().map(|run| match &run.result {
             RunResult::Transform(e) => {
@@ -168,24 +175,39 @@ fn table(pairs: &[MapPair], answers: &[Answers], verdicts: &[Verdict]) -> Table 
             RunResult::FalseMerge | RunResult::Direction(_) => "merged".to_owned(),
         }));
         row.push(verdict.text().to_owned());
-        row.push(why(answers).map_or_else(String::new, ToString::to_string));
+        let agreement = answers.evidence.wall_agreement.and_then(|agreement| agreement.share());
+        row.push(agreement.map_or("–".to_owned(), |share| format!("{share:.2}")));
+        row.push(remarks(answers));
         row
     });
     Table {
         caption: "Error of each method, and the verdict on #3.".to_owned(),
-        header: ["pair", "truth", "common tags", "#1", "#2", "#3", "verdict", "why not"]
-            .map(str::to_owned)
-            .to_vec(),
+        header: [
+            "pair",
+            "truth",
+            "common tags",
+            "#1",
+            "#2",
+            "#3",
+            "verdict",
+            "walls agree",
+            "remarks",
+        ]
+        .map(str::to_owned)
+        .to_vec(),
         rows: rows.collect(),
     }
 }
 
-/// The refusal of #3, if it refused.
-fn why(answers: &Answers) -> Option<&Refusal> {
-    answers.runs.iter().find(|run| run.variant == "#3").and_then(|run| match &run.result {
-        RunResult::Refused(refusal) => Some(refusal),
+/// Why #3 refused, or what makes its answer less sure than it looks.
+fn remarks(answers: &Answers) -> String {
+    let refusals = answers.runs.iter().filter(|run| run.variant == "#3");
+    let refusals = refusals.filter_map(|run| match &run.result {
+        RunResult::Refused(refusal) => Some(refusal.to_string()),
         _ => None,
-    })
+    });
+    let warnings = answers.evidence.warnings().into_iter().map(|warning| warning.to_string());
+    refusals.chain(warnings).collect::<Vec<_>>().join("; ")
 }
 
 fn criteria(pairs: &[MapPair], verdicts: &[Verdict]) -> Vec<Criterion> {

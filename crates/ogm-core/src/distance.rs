@@ -4,29 +4,37 @@ use crate::Grid;
 
 /// City-block distance, in cells, from every cell to the nearest set cell of `mask`.
 ///
-/// Two raster passes (Carpin and Birk, *Stochastic map merging*, Algorithm 2); what lies outside
-/// the grid is infinitely far and infinity plus one stays infinity. `None` if no cell is set.
+/// The two raster passes of Carpin and Birk (*Stochastic map merging*, Algorithm 2), taken apart by
+/// axis; what lies outside the grid is infinitely far and infinity plus one stays infinity. `None`
+/// if no cell is set.
 #[must_use]
 pub fn l1_distance(mask: &Grid<bool>) -> Option<Grid<u32>> {
     if !mask.cells().contains(&true) {
         return None;
     }
-    let width = mask.width();
     let mut distance = mask.map(|&set| if set { 0 } else { u32::MAX });
-    let cells = distance.cells_mut();
+    l1_spread(&mut distance);
+    Some(distance)
+}
 
-    relax_along_row(&mut cells[..width]);
-    for row in 1..mask.height() {
+/// Lowers every cell to the least, over all cells, of that cell's value plus the city-block
+/// distance to it, in cells; `u32::MAX` is infinity.
+///
+/// [`l1_distance`] in place, from values other than zero.
+pub fn l1_spread(values: &mut Grid<u32>) {
+    let (width, height) = (values.width(), values.height());
+    let cells = values.cells_mut();
+    for row in cells.chunks_exact_mut(width) {
+        relax_along_row(row);
+    }
+    for row in 1..height {
         let (below, current) = cells[(row - 1) * width..(row + 1) * width].split_at_mut(width);
         relax_from_neighbour(current, below);
-        relax_along_row(current);
     }
-    for row in (0..mask.height() - 1).rev() {
+    for row in (0..height - 1).rev() {
         let (current, above) = cells[row * width..(row + 2) * width].split_at_mut(width);
         relax_from_neighbour(current, above);
-        relax_along_row(current);
     }
-    Some(distance)
 }
 
 /// Shortens distances by one step from the adjacent row.

@@ -41,7 +41,7 @@ mod warp;
 
 pub use agreement::Agreement;
 pub use angle::{KFoldMean, mean_k_fold, undirected_difference, wrap_angle, wrap_period};
-pub use distance::l1_distance;
+pub use distance::{l1_distance, l1_spread};
 pub use error::GridError;
 pub use frame::GridFrame;
 pub use grid::{CellIndex, Grid, MAX_CELLS};

@@ -25,7 +25,7 @@ impl SearchBox {
     pub fn admit(&self, placement: Placement) -> Option<Placement> {
         let turn = wrap_period(placement[2], 360.0);
         let inside = self
-            .from_centre(placement)
+            .offset(placement)
             .iter()
             .zip(&self.reach)
             .all(|(distance, reach)| distance.abs() <= *reach);
@@ -33,7 +33,7 @@ impl SearchBox {
     }
 
     pub(crate) fn check_start(&self, start: Placement) -> Result<Placement, WalkError> {
-        let [x, y, turn] = self.from_centre(start);
+        let [x, y, turn] = self.offset(start);
         let [reach_x, reach_y, reach_turn] = self.reach;
         self.admit(start).ok_or(WalkError::StartOutside {
             x,
@@ -45,7 +45,7 @@ impl SearchBox {
         })
     }
 
-    fn from_centre(&self, placement: Placement) -> [f64; 3] {
+    fn offset(&self, placement: Placement) -> [f64; 3] {
         let [x, y, turn] = placement;
         let turn = wrap_period(turn - self.centre[2], 360.0);
         [x - self.centre[0], y - self.centre[1], turn]

@@ -17,7 +17,7 @@ const TOLERANCE: f64 = RESOLUTION;
 fn floor(seed: u64, heading: f64) -> (OccupancyGrid, Se2) {
     let mut robots = PairParams { seed, ..PairParams::cb() };
     robots.mapping.resolution = RESOLUTION;
-    let run = survey(&FloorPlan::plan_a(), heading, &robots).unwrap();
+    let run = survey(&FloorPlan::plan_a(), heading, &robots).expect("plan A can be surveyed");
     (run.map, run.world_from_map)
 }
 
@@ -120,7 +120,8 @@ fn the_special_cases_improve_on_their_start_too() {
 }
 
 fn small(picture: &str) -> OccupancyGrid {
-    OccupancyGrid::from_ascii(GridFrame::new(0.14, Se2::identity()).unwrap(), picture).unwrap()
+    let frame = GridFrame::new(0.14, Se2::identity()).expect("a frame");
+    OccupancyGrid::from_ascii(frame, picture).expect("a picture of a map")
 }
 
 #[test]

@@ -13,8 +13,8 @@ fn map(picture: &str) -> OccupancyGrid {
 }
 
 fn map_in(map_from_grid: Se2, picture: &str) -> OccupancyGrid {
-    let frame = GridFrame::new(0.14, map_from_grid).unwrap();
-    OccupancyGrid::from_ascii(frame, picture).unwrap()
+    let frame = GridFrame::new(0.14, map_from_grid).expect("a frame");
+    OccupancyGrid::from_ascii(frame, picture).expect("a picture of a map")
 }
 
 fn classes(picture: &str) -> Grid<CellClass> {

@@ -91,7 +91,7 @@ pub fn merge(
     Ok((report, merged))
 }
 
-fn at_resolution<'a>(
+pub(crate) fn at_resolution<'a>(
     map: &'a OccupancyGrid,
     resolution: f64,
     thresholds: &ClassThresholds,

@@ -15,6 +15,9 @@ pub enum MergeError {
     /// The start or the points of the refinement.
     #[error(transparent)]
     Refinement(#[from] icp2d::IcpError),
+    /// The start or the parameters of the random walk.
+    #[error(transparent)]
+    Walk(#[from] carpin_walk::WalkError),
     /// The fusion.
     #[error(transparent)]
     Fusion(#[from] grid_merge::MergeError),

@@ -3,7 +3,8 @@
 //! The recipes are those of Tsardoulias, Thallas, Petrou, *Metric Map Merging using RFID Tags &
 //! Topological Information*: [`Method::Rfid1`] to [`Method::Rfid3`]. [`align`] finds the transform
 //! between two maps or refuses with a reason, and its [`MergeReport`] says what each stage saw;
-//! [`merge`] also fuses the cells.
+//! [`merge`] also fuses the cells. [`align_carpin`] is that of Carpin and Birk, *Stochastic map
+//! merging in rescue environments*: no tags, but a rough start.
 //!
 //! ```
 //! use ogm_merge::{MergeParams, Method, RobotMap, merge};
@@ -27,6 +28,7 @@
 //! ```
 
 mod align;
+mod carpin;
 mod error;
 mod params;
 mod recipes;
@@ -35,6 +37,7 @@ mod stop;
 mod verify;
 
 pub use align::{Method, RobotMap, align, merge};
+pub use carpin::{CarpinParams, CarpinReport, align_carpin};
 pub use error::MergeError;
 pub use params::{Anchor, MergeParams, RfidParams};
 pub use report::{Evidence, MergeReport, WallAgreement, WallDirection, Warning};

@@ -45,13 +45,16 @@ pub(crate) enum ExperimentId {
     X3,
     /// The three methods on simulated worlds (Table 4).
     X4,
+    /// Stochastic merging on simulated rescue maps (Carpin and Birk); only on request.
+    X5,
 }
 
 impl Args {
     /// The experiments that this command line asks for.
     pub(crate) fn experiments(&self) -> Vec<ExperimentId> {
         if self.only.is_empty() {
-            ExperimentId::value_variants().to_vec()
+            let all = ExperimentId::value_variants().iter().copied();
+            all.filter(|&id| self.all || id != ExperimentId::X5).collect()
         } else {
             self.only.clone()
         }

@@ -14,6 +14,11 @@ mod pair_figures;
 mod pair_input;
 mod pair_tags;
 mod pairs;
+mod random_walk;
+mod random_walk_cases;
+mod random_walk_figures;
+mod random_walk_pairs;
+mod random_walk_tables;
 mod record;
 mod splice;
 mod wall_direction;
@@ -62,6 +67,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Verdict> {
             ExperimentId::X2 => worked_tables::choice_of_tags()?,
             ExperimentId::X3 => wall_direction::run(args)?,
             ExperimentId::X4 => methods::run(args)?,
+            ExperimentId::X5 => random_walk::run(args)?,
         };
         all.extend(measured);
     }

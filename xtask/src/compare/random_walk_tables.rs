@@ -1,0 +1,82 @@
+//! The tables and criteria of X5.
+
+use super::random_walk::{CORRECTED, Variant, Walked};
+use super::random_walk_cases::{CASES, Coverage};
+use crate::report::{Criterion, Table};
+use crate::stats::{mean, wilson_ci95};
+
+/// Least share of successes of the corrected walk at full overlap.
+const NEEDED: f64 = 0.9;
+
+/// Success by variant and case, and what else the walks did.
+pub(super) fn draw(variants: &[Variant], walked: &[Walked]) -> Vec<Table> {
+    let header = |last: Option<&str>| {
+        let names = CASES.iter().map(|case| case.name).chain(last);
+        std::iter::once("variant").chain(names).map(str::to_owned).collect::<Vec<_>>()
+    };
+    let of = |variant: &Variant, case: Option<&str>| -> Vec<&Walked> {
+        let fits = |walk: &&Walked| {
+            walk.variant == variant.name && case.is_none_or(|case| walk.case == case)
+        };
+        walked.iter().filter(fits).collect()
+    };
+    let rows = |cell: &dyn Fn(&[&Walked]) -> String,
+                last: Option<&dyn Fn(&[&Walked]) -> String>| {
+        let row = |variant: &Variant| {
+            let cells = CASES.iter().map(|case| cell(&of(variant, Some(case.name))));
+            let last = last.map(|last| last(&of(variant, None)));
+            std::iter::once(variant.name.to_owned()).chain(cells).chain(last).collect()
+        };
+        variants.iter().map(row).collect::<Vec<Vec<String>>>()
+    };
+    let evaluations = |walks: &[&Walked]| {
+        let counts: Vec<f64> = walks.iter().map(|walk| walk.evaluations as f64).collect();
+        mean(&counts).map_or("–".to_owned(), |mean| format!("{mean:.0}"))
+    };
+    vec![
+        Table {
+            caption: format!(
+                "Share of walks of 200 samples that end within 2 cells and 3° of the truth, with \
+                 Wilson's 95 % interval; {} walks a cell.",
+                walked.len() / (variants.len() * CASES.len()).max(1)
+            ),
+            header: header(Some("ψ evaluations")),
+            rows: rows(&|walks| share(walks, |walk| walk.success), Some(&evaluations)),
+        },
+        Table {
+            caption: "Share of walks that end where ψ is below ψ of the truth.".to_owned(),
+            header: header(None),
+            rows: rows(&|walks| share(walks, |walk| walk.below_truth), None),
+        },
+    ]
+}
+
+/// "0.98 [0.90, 1.00]".
+fn share(walks: &[&Walked], holds: impl Fn(&Walked) -> bool) -> String {
+    share_of(walks.iter().filter(|walk| holds(walk)).count(), walks.len())
+}
+
+pub(super) fn share_of(count: usize, of: usize) -> String {
+    let (low, high) = wilson_ci95(count, of);
+    format!("{:.2} [{low:.2}, {high:.2}]", count as f64 / of as f64)
+}
+
+/// The corrected walk at full overlap, from both starts.
+pub(super) fn criteria(walked: &[Walked]) -> Vec<Criterion> {
+    let full = CASES.iter().filter(|case| case.coverage == Coverage::Full);
+    full.map(|case| {
+        let fits = |walk: &&Walked| walk.variant == CORRECTED && walk.case == case.name;
+        let walks: Vec<&Walked> = walked.iter().filter(fits).collect();
+        let successes = walks.iter().filter(|walk| walk.success).count();
+        let ours = successes as f64 / walks.len() as f64;
+        Criterion {
+            id: format!("X5: {}", case.name),
+            statement: "corrected walk: share of successes ≥ 0.9".to_owned(),
+            paper: None,
+            ours,
+            interval: Some(wilson_ci95(successes, walks.len())),
+            pass: ours >= NEEDED,
+        }
+    })
+    .collect()
+}

@@ -2,7 +2,7 @@
 
 use carpin_walk::{DistanceParams, MapDistance, Placement};
 use ogm_core::{GridFrame, Occupancy, OccupancyGrid, Se2, warp_nearest, wrap_period};
-use ogm_sim::{FloorPlan, PairParams, Robot, map_along_path, survey};
+use ogm_sim::{FloorPlan, PairParams, Robot, RobotRun, map_along_path, survey};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -21,8 +21,10 @@ const HEADING: f64 = 15.0;
 pub(super) enum Coverage {
     /// All of the building, each on drives of its own noise.
     Full,
-    /// Their own part of it, about 60 % of which the other saw as well.
+    /// The same, but each map is cut to its side of the building so that they share 60 %.
     Partial,
+    /// What lies along their own drives: less than 60 % with a sensor that reaches 4 m.
+    Drives,
 }
 
 /// Largest error of a start: uniform in x, y and turn.
@@ -43,11 +45,13 @@ pub(super) struct Case {
 const NEAR: StartError = StartError { cells: 5.0, degrees: 7.5 };
 const FAR: StartError = StartError { cells: 15.0, degrees: 22.5 };
 
-pub(super) const CASES: [Case; 4] = [
+pub(super) const CASES: [Case; 6] = [
     Case { name: "full, ≤ 5 cells, 7.5°", coverage: Coverage::Full, start: NEAR },
     Case { name: "full, ≤ 15 cells, 22.5°", coverage: Coverage::Full, start: FAR },
     Case { name: "60 %, ≤ 5 cells, 7.5°", coverage: Coverage::Partial, start: NEAR },
     Case { name: "60 %, ≤ 15 cells, 22.5°", coverage: Coverage::Partial, start: FAR },
+    Case { name: "drives, ≤ 5 cells, 7.5°", coverage: Coverage::Drives, start: NEAR },
+    Case { name: "drives, ≤ 15 cells, 22.5°", coverage: Coverage::Drives, start: FAR },
 ];
 
 /// Two maps of one building and the truth about them.
@@ -75,7 +79,8 @@ impl RescuePair {
             robots.mapping.resolution = plan.size().max() / SPAN;
             let run = match coverage {
                 Coverage::Full => survey(plan, heading, &robots)?,
-                Coverage::Partial => {
+                Coverage::Partial => half(plan, robot, survey(plan, heading, &robots)?),
+                Coverage::Drives => {
                     let path = plan.path(robot, robots.step)?;
                     let world_from_map = Se2::new(0.0, 0.0, heading);
                     map_along_path(plan, &path, &[], world_from_map, robot, &robots)?
@@ -87,6 +92,25 @@ impl RescuePair {
         let (source, world_from_source) = map(Robot::Source, heading)?;
         let target_from_source = world_from_target.between(&world_from_source);
         Ok(Self { target, source, target_from_source, seed })
+    }
+
+    /// Cells that both maps know, as a share of those that one knows on average.
+    pub(super) fn shared(&self) -> anyhow::Result<f64> {
+        let (target, source) = (&self.target, &self.source);
+        let unknown = Occupancy::UNKNOWN;
+        let seen = warp_nearest(
+            source.cells(),
+            source.frame(),
+            target.frame(),
+            (target.width(), target.height()),
+            &self.target_from_source,
+            unknown,
+        )?;
+        let known = |cells: &[Occupancy]| cells.iter().filter(|cell| cell.is_known()).count();
+        let cells = target.cells().cells();
+        let both = cells.iter().zip(seen.cells()).filter(|(a, b)| a.is_known() && b.is_known());
+        let all = known(cells) + known(source.cells().cells());
+        Ok(2.0 * both.count() as f64 / all as f64)
     }
 
     /// The distance of the maps for looking at placements; its canvas is the default one.
@@ -114,6 +138,28 @@ impl RescuePair {
         let turn = wrap_period(found[2] - truth[2], 360.0).abs();
         Ok([(found[0] - truth[0]).hypot(found[1] - truth[1]), turn])
     }
+}
+
+/// Share of a building's length that each of two robots keeps so that 60 % of either is common.
+const KEPT: f64 = 1.0 / 1.4;
+
+/// The run with a map of its robot's side of the building only.
+fn half(plan: &FloorPlan, robot: Robot, mut run: RobotRun) -> RobotRun {
+    let axis = usize::from(plan.size().y > plan.size().x);
+    let length = plan.size()[axis];
+    let (frame, world_from_map) = (*run.map.frame(), run.world_from_map);
+    let cells = run.map.cells_mut();
+    for position in 0..cells.cells().len() {
+        let at = (world_from_map * frame.cell_centre(cells.index_of(position)))[axis] / length;
+        let kept = match robot {
+            Robot::Target => at <= KEPT,
+            Robot::Source => at >= 1.0 - KEPT,
+        };
+        if !kept {
+            cells.cells_mut()[position] = Occupancy::UNKNOWN;
+        }
+    }
+    run
 }
 
 fn generator(seed: u64, stream: u64) -> ChaCha8Rng {

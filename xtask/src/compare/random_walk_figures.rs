@@ -12,8 +12,8 @@ use crate::draw::{Chart, Mark, Series, chart, enlarge, overlay, png, side_by_sid
 use crate::report::{Figure, Image};
 
 /// Walks behind a curve of Theorem 1, and their samples.
-const WALKS: u64 = 60;
-const SAMPLES: usize = 1500;
+const WALKS: u64 = 40;
+const SAMPLES: usize = 1000;
 
 /// What counts as near the optimum: this share of ψ there, more than ψ there.
 const EPSILON: f64 = 0.25;

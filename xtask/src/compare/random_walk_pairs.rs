@@ -50,9 +50,10 @@ pub(super) fn run(args: &Args, folder: &Path) -> anyhow::Result<RealPairs> {
     let bar = progress("X5 pairs", matching.len() as u64);
     let answers: Vec<Answer> = matching
         .par_iter()
+        .enumerate()
         .with_max_len(1)
-        .map(|(pair, truth)| {
-            let answer = answer(pair, truth, args.seed);
+        .map(|(index, (pair, truth))| {
+            let answer = answer(pair, truth, args.seed, index as u64);
             bar.inc(1);
             answer
         })
@@ -83,7 +84,7 @@ pub(super) fn run(args: &Args, folder: &Path) -> anyhow::Result<RealPairs> {
     })
 }
 
-fn answer(pair: &MapPair, truth: &Truth, seed: u64) -> anyhow::Result<Answer> {
+fn answer(pair: &MapPair, truth: &Truth, seed: u64, stream: u64) -> anyhow::Result<Answer> {
     let thresholds = ClassThresholds::default();
     let resolutions = [&pair.target, &pair.source].map(|map| map.frame().resolution());
     let resolution = resolutions[0].max(resolutions[1]).max(CELL_M);
@@ -97,12 +98,15 @@ fn answer(pair: &MapPair, truth: &Truth, seed: u64) -> anyhow::Result<Answer> {
     let centroid = pair.source_centroid();
     let true_target_from_source = truth.target_from_source;
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    rng.set_stream(stream);
     let [x, y] = std::array::from_fn(|_| rng.random_range(-START_M..START_M));
     let turn = rng.random_range(-START_DEG..START_DEG).to_radians();
     let start = Se2::about(true_target_from_source * centroid, turn, Vector2::new(x, y))
         * true_target_from_source;
 
-    let error = |found: &Se2| pose_error(found, &true_target_from_source, centroid);
+    let error = |target_from_source: &Se2| {
+        pose_error(target_from_source, &true_target_from_source, centroid)
+    };
     let overlap = Overlap::new(&pair.target, &pair.source, true_target_from_source);
     let shown = |(metres, turn): (f64, f64)| format!("{metres:.2} m, {:.1}°", turn.to_degrees());
     let mut psi_of_truth =

@@ -37,11 +37,17 @@ pub(super) fn draw(variants: &[Variant], walked: &[Walked]) -> Vec<Table> {
         Table {
             caption: format!(
                 "Share of walks of 200 samples that end within 2 cells and 3° of the truth, with \
-                 Wilson's 95 % interval; {} walks a cell.",
-                walked.len() / (variants.len() * CASES.len()).max(1)
+                 Wilson's 95 % interval; {} walks a cell. Last, the mean share of the known cells \
+                 that both maps know.",
+                walked.iter().filter(|w| w.case == CASES[0].name && w.variant == CORRECTED).count()
             ),
             header: header(Some("ψ evaluations")),
-            rows: rows(&|walks| share(walks, |walk| walk.success), Some(&evaluations)),
+            rows: {
+                let success = |walks: &[&Walked]| share(walks, |walk| walk.success);
+                let mut rows = rows(&success, Some(&evaluations));
+                rows.push(shared(walked));
+                rows
+            },
         },
         Table {
             caption: "Share of walks that end where ψ is below ψ of the truth.".to_owned(),
@@ -51,12 +57,27 @@ pub(super) fn draw(variants: &[Variant], walked: &[Walked]) -> Vec<Table> {
     ]
 }
 
+/// How much the maps of each case have in common.
+fn shared(walked: &[Walked]) -> Vec<String> {
+    let of_case = |name: &str| {
+        let walks = walked.iter().filter(|walk| walk.case == name);
+        mean(&walks.map(|walk| walk.shared).collect::<Vec<_>>())
+    };
+    let cells = CASES.iter().map(|case| of_case(case.name));
+    let cells = cells.map(|mean| mean.map_or("–".to_owned(), |mean| format!("{mean:.2}")));
+    let name = std::iter::once("shared cells".to_owned());
+    name.chain(cells).chain(std::iter::once(String::new())).collect()
+}
+
 /// "0.98 [0.90, 1.00]".
 fn share(walks: &[&Walked], holds: impl Fn(&Walked) -> bool) -> String {
     share_of(walks.iter().filter(|walk| holds(walk)).count(), walks.len())
 }
 
 pub(super) fn share_of(count: usize, of: usize) -> String {
+    if of == 0 {
+        return "–".to_owned();
+    }
     let (low, high) = wilson_ci95(count, of);
     format!("{:.2} [{low:.2}, {high:.2}]", count as f64 / of as f64)
 }

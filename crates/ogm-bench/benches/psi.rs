@@ -1,5 +1,4 @@
 //! What one look at a transform costs, beside the distance transform of its canvas.
-#![expect(missing_docs, reason = "criterion generates the entry point")]
 
 use std::hint::black_box;
 

@@ -79,8 +79,8 @@ fn variants() -> Vec<Variant> {
             "μ from the last 5 steps",
             Box::new(RandomWalk { drift: Drift::History(5), ..walk }),
         ),
-        picture("hill climbing", Box::new(HillClimbing::default())),
-        picture("simulated annealing", Box::new(Annealing::default())),
+        picture("hill climbing", Box::<HillClimbing>::default()),
+        picture("simulated annealing", Box::<Annealing>::default()),
         Variant { name: CORRECTED_OVERLAP, rules: Box::new(walk), objective: OVERLAP },
     ]
 }

@@ -8,6 +8,9 @@ use crate::stats::{mean, wilson_ci95};
 /// Least share of successes of the corrected walk at full overlap.
 const NEEDED: f64 = 0.9;
 
+/// What a cell shows of its walks.
+type Shown<'a> = dyn Fn(&[&Walked]) -> String + 'a;
+
 /// Success by variant and case, and what else the walks did.
 pub(super) fn draw(variants: &[Variant], walked: &[Walked]) -> Vec<Table> {
     let header = |last: Option<&str>| {
@@ -20,8 +23,7 @@ pub(super) fn draw(variants: &[Variant], walked: &[Walked]) -> Vec<Table> {
         };
         walked.iter().filter(fits).collect()
     };
-    let rows = |cell: &dyn Fn(&[&Walked]) -> String,
-                last: Option<&dyn Fn(&[&Walked]) -> String>| {
+    let rows = |cell: &Shown<'_>, last: Option<&Shown<'_>>| {
         let row = |variant: &Variant| {
             let cells = CASES.iter().map(|case| cell(&of(variant, Some(case.name))));
             let last = last.map(|last| last(&of(variant, None)));

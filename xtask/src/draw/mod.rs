@@ -17,5 +17,5 @@ pub(crate) use embed::png_data_uri;
 pub(crate) use heat::{Heat, heat};
 pub(crate) use overlay::overlay;
 pub(crate) use plan::{Layer, Plan, plan};
-pub(crate) use raster::{crop_known, occupancy, png, side_by_side};
+pub(crate) use raster::{crop_known, enlarge, occupancy, png, side_by_side};
 pub(crate) use svg::escape;

@@ -127,6 +127,18 @@ pub enum Refusal {
         /// Largest angle that is accepted, radians.
         limit_rad: f64,
     },
+    /// Several poses fit about as well.
+    #[error(
+        "ambiguous: {poses} poses fit about as well, the best is right with probability {probability:.2} where {need:.2} is needed; give a prior or explore further"
+    )]
+    SeveralPoses {
+        /// Poses that fit, the best among them.
+        poses: usize,
+        /// Probability of the best.
+        probability: f64,
+        /// Probability needed.
+        need: f64,
+    },
     /// A refinement that left the neighbourhood of its start, or made it worse.
     #[error(
         "not converged: refinement ran away after {iterations} iterations with {rmse_m:.3} m between the walls; check the start"

@@ -1,0 +1,150 @@
+//! Correlation of packed maps over every translation by the fast Fourier transform.
+
+use std::sync::Arc;
+
+use rustfft::num_complex::Complex32;
+use rustfft::{Fft, FftPlanner};
+
+use crate::channels::Channels;
+
+/// One map transformed, to be correlated with many.
+pub(crate) struct Correlator {
+    columns: usize,
+    rows: usize,
+    along_rows: [Arc<dyn Fft<f32>>; 2],
+    along_columns: [Arc<dyn Fft<f32>>; 2],
+    /// Of the first map, transposed.
+    spectrum: Vec<Complex32>,
+    work: Vec<Complex32>,
+    turned: Vec<Complex32>,
+    scratch: Vec<Complex32>,
+}
+
+/// The score of every translation, in coarse cells; negative ones wrap around.
+pub(crate) struct Surface<'a> {
+    pub(crate) columns: usize,
+    pub(crate) rows: usize,
+    scores: &'a [Complex32],
+}
+
+impl Correlator {
+    /// A correlator for `first` with maps of up to `width` × `height` coarse cells, which must
+    /// overlap by at least `overlap` cells to either axis.
+    pub(crate) fn new(first: &Channels, [width, height]: [usize; 2], overlap: usize) -> Self {
+        let columns = fast_length((first.width + width).saturating_sub(overlap));
+        let rows = fast_length((first.height + height).saturating_sub(overlap));
+        let (columns, rows) = (columns.max(first.width), rows.max(first.height));
+        let mut planner = FftPlanner::new();
+        let mut both =
+            |length| [planner.plan_fft_forward(length), planner.plan_fft_inverse(length)];
+        let (along_rows, along_columns) = (both(columns), both(rows));
+        let scratch =
+            along_rows.iter().chain(&along_columns).map(|fft| fft.get_inplace_scratch_len());
+        let scratch = vec![Complex32::default(); scratch.max().unwrap_or(0)];
+        let zero = vec![Complex32::default(); columns * rows];
+        let mut correlator = Self {
+            columns,
+            rows,
+            along_rows,
+            along_columns,
+            spectrum: zero.clone(),
+            work: zero.clone(),
+            turned: zero,
+            scratch,
+        };
+        correlator.transform(first);
+        std::mem::swap(&mut correlator.spectrum, &mut correlator.turned);
+        correlator
+    }
+
+    /// Cells of a transform.
+    pub(crate) fn cells(&self) -> usize {
+        self.columns * self.rows
+    }
+
+    /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ.
+    pub(crate) fn correlate(&mut self, second: &Channels) -> Surface<'_> {
+        self.transform(second);
+        for (value, &first) in self.turned.iter_mut().zip(&self.spectrum) {
+            *value = first * value.conj();
+        }
+        self.along_columns[1].process_with_scratch(&mut self.turned, &mut self.scratch);
+        transpose(&self.turned, &mut self.work, self.rows);
+        self.along_rows[1].process_with_scratch(&mut self.work, &mut self.scratch);
+        Surface { columns: self.columns, rows: self.rows, scores: &self.work }
+    }
+
+    /// The transform of `map`, transposed, into `turned`.
+    fn transform(&mut self, map: &Channels) {
+        self.work.fill(Complex32::default());
+        let rows = map.packed.chunks_exact(map.width);
+        for (output, row) in self.work.chunks_exact_mut(self.columns).zip(rows) {
+            output[..map.width].copy_from_slice(row);
+        }
+        let filled = &mut self.work[..map.height * self.columns];
+        self.along_rows[0].process_with_scratch(filled, &mut self.scratch);
+        transpose(&self.work, &mut self.turned, self.columns);
+        self.along_columns[0].process_with_scratch(&mut self.turned, &mut self.scratch);
+    }
+}
+
+impl Surface<'_> {
+    /// Unscaled: the inverse transform multiplies by the number of cells.
+    pub(crate) fn score(&self, column: usize, row: usize) -> f32 {
+        self.scores[row * self.columns + column].re
+    }
+
+    /// Local maxima above `floor`: column, row and score in coarse cells of wall.
+    pub(crate) fn maxima(&self, floor: f32) -> Vec<(usize, usize, f32)> {
+        let (columns, rows) = (self.columns, self.rows);
+        let scale = 1.0 / (columns * rows) as f32;
+        let mut found = Vec::new();
+        for row in 0..rows {
+            let [below, above] = [(row + rows - 1) % rows, (row + 1) % rows];
+            for column in 0..columns {
+                let here = self.score(column, row);
+                if here * scale <= floor {
+                    continue;
+                }
+                let [left, right] = [(column + columns - 1) % columns, (column + 1) % columns];
+                let is_peak = here > self.score(left, row)
+                    && here >= self.score(right, row)
+                    && [left, column, right].iter().all(|&near| {
+                        here > self.score(near, below) && here >= self.score(near, above)
+                    });
+                if is_peak {
+                    found.push((column, row, here * scale));
+                }
+            }
+        }
+        found
+    }
+}
+
+/// The least length not below `least` whose only factors are 2, 3 and 5.
+fn fast_length(least: usize) -> usize {
+    let smooth = |mut length: usize| {
+        for factor in [2, 3, 5] {
+            while length.is_multiple_of(factor) {
+                length /= factor;
+            }
+        }
+        length == 1
+    };
+    (least.max(2)..).find(|&length| smooth(length)).unwrap_or(least)
+}
+
+/// `input` of `width` columns transposed, in blocks that stay in the cache.
+fn transpose(input: &[Complex32], output: &mut [Complex32], width: usize) {
+    const BLOCK: usize = 16;
+    let height = input.len() / width;
+    for row in (0..height).step_by(BLOCK) {
+        for column in (0..width).step_by(BLOCK) {
+            for y in row..(row + BLOCK).min(height) {
+                for x in column..(column + BLOCK).min(width) {
+                    output[x * height + y] = input[y * width + x];
+                }
+            }
+        }
+    }
+}

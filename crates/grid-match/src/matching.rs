@@ -1,0 +1,195 @@
+//! The front door: two maps in, ranked poses or a refusal out.
+
+use std::cmp::Ordering;
+
+use ogm_core::{OccupancyGrid, Outcome, Refusal, Se2};
+
+use crate::MatchError;
+use crate::bounds::Bounds;
+use crate::confidence::{FLOOR, modes, probability};
+use crate::covariance::covariance;
+use crate::lattice::floor_index;
+use crate::params::{Effort, MatchParams};
+use crate::prepare::PreparedMap;
+use crate::report::{Hypothesis, MatchReport};
+use crate::score::{Evidence, Reach, evidence};
+use crate::search::{Fit, Search};
+use crate::work::Work;
+
+/// Most hypotheses of a report.
+const MOST_HYPOTHESES: usize = 5;
+
+/// Finds the rigid transform that lays `source` on `target`, from the maps alone.
+///
+/// The maps may differ in resolution, origin and yaw. The report ranks every pose that fits; its
+/// outcome is the best if its probability reaches `params.accept`, and otherwise a refusal that
+/// says what is missing: structure, overlap, agreement, or a lead over other poses.
+///
+/// # Errors
+/// Parameters out of range or a prior that is not finite.
+pub fn match_maps(
+    target: &OccupancyGrid,
+    source: &OccupancyGrid,
+    params: &MatchParams,
+) -> Result<MatchReport, MatchError> {
+    params.check()?;
+    let target = PreparedMap::new(target, &params.thresholds);
+    let source = PreparedMap::new(source, &params.thresholds);
+    match_prepared(&target, &source, params)
+}
+
+/// [`match_maps`] for maps that were prepared before; the thresholds of `params` are not used.
+///
+/// # Errors
+/// Parameters out of range or a prior that is not finite.
+pub fn match_prepared(
+    target: &PreparedMap,
+    source: &PreparedMap,
+    params: &MatchParams,
+) -> Result<MatchReport, MatchError> {
+    params.check()?;
+    if let Some(refusal) = too_little(target, params).or_else(|| too_little(source, params)) {
+        let outcome = Outcome::Refused(refusal);
+        return Ok(MatchReport { hypotheses: Vec::new(), outcome, work: 0, exhausted: false });
+    }
+    // One order for both directions, so that swapping the maps inverts the answer exactly.
+    let swapped = order(target, source) == Ordering::Less;
+    let (first, second) = if swapped { (source, target) } else { (target, source) };
+    let bounds = params.prior.map(|prior| Bounds::new(&prior, first, second, swapped));
+    let mut search = Search::new(first, second, bounds, Work::new(params.work_limit));
+    let mut found = Vec::new();
+    for effort in [Effort::Fast, Effort::Standard, Effort::Thorough] {
+        if effort > params.effort || search.work.exhausted() {
+            break;
+        }
+        search.run(effort);
+        found = modes(search.fits.clone(), second.centre);
+        if !found.is_empty() && probability(&found, 0) >= params.accept {
+            break;
+        }
+    }
+    let hypotheses: Vec<Hypothesis> = (0..found.len().min(MOST_HYPOTHESES))
+        .filter(|&index| found[index].evidence.is_comparable())
+        .map(|index| hypothesis(target, source, &found, index, swapped))
+        .collect();
+    let outcome = outcome(&hypotheses, target.resolution().max(source.resolution()), params);
+    let (work, exhausted) = (search.work.spent(), search.work.exhausted());
+    Ok(MatchReport { hypotheses, outcome, work, exhausted })
+}
+
+/// What two maps say for and against one pose, without a search.
+///
+/// # Errors
+/// A pose that is not finite.
+pub fn score_pose(
+    target: &PreparedMap,
+    source: &PreparedMap,
+    target_from_source: &Se2,
+) -> Result<Evidence, MatchError> {
+    check_pose(target_from_source)?;
+    let target_local_from_source_local =
+        target.map_from_local.inverse() * *target_from_source * source.map_from_local;
+    let reach = Reach::at(target.resolution().max(source.resolution()));
+    Ok(evidence(target, source, &target_local_from_source_local, reach, usize::MAX))
+}
+
+fn too_little(map: &PreparedMap, params: &MatchParams) -> Option<Refusal> {
+    let need = floor_index((params.min_wall_m / map.resolution()).ceil().min(1e15)).max(1);
+    let have = map.occupied_cells;
+    (have < need).then_some(Refusal::TooLittleStructure { have, need })
+}
+
+/// By what does not depend on origin, orientation or resolution, so that it rarely changes with
+/// these; then by anything, so that only equal maps are equal.
+fn order(a: &PreparedMap, b: &PreparedMap) -> Ordering {
+    let shape = |map: &PreparedMap| (map.lattice.width, map.lattice.height);
+    a.known_area()
+        .total_cmp(&b.known_area())
+        .then(a.wall_length().total_cmp(&b.wall_length()))
+        .then(shape(a).cmp(&shape(b)))
+        .then_with(|| a.state.cmp(&b.state))
+}
+
+fn hypothesis(
+    target: &PreparedMap,
+    source: &PreparedMap,
+    modes: &[Fit],
+    index: usize,
+    swapped: bool,
+) -> Hypothesis {
+    let Fit { first_from_second, evidence, score } = modes[index];
+    let target_local_from_source_local =
+        if swapped { first_from_second.inverse() } else { first_from_second };
+    let scale = target.resolution().max(source.resolution()).max(0.08);
+    let (covariance, weak_direction) =
+        covariance(target, source, &target_local_from_source_local, scale);
+    Hypothesis {
+        target_from_source: target.map_from_local
+            * target_local_from_source_local
+            * source.map_from_local.inverse(),
+        probability: probability(modes, index),
+        score,
+        covariance,
+        weak_direction,
+        overlap: evidence.overlap,
+        agreement: evidence.agreement(),
+        evidence,
+    }
+}
+
+fn outcome(hypotheses: &[Hypothesis], resolution: f64, params: &MatchParams) -> Outcome<Se2> {
+    let cells = |metres: f64| floor_index(metres / resolution);
+    let Some(best) = hypotheses.first() else {
+        return Outcome::Refused(Refusal::NoOverlap { have: 0, need: cells(params.min_wall_m) });
+    };
+    if best.probability >= params.accept {
+        return Outcome::Found(best.target_from_source);
+    }
+    let rivals = hypotheses.iter().filter(|other| other.score > FLOOR.max(best.score - 3.0));
+    let poses = rivals.count();
+    let evidence = &best.evidence;
+    let against = evidence.near_miss_m + evidence.conflict_m;
+    Outcome::Refused(if poses > 1 {
+        let (probability, need) = (best.probability, params.accept);
+        Refusal::SeveralPoses { poses, probability, need }
+    } else if against > evidence.hit_m * 0.35 {
+        let (conflicts, compared) = (cells(against), cells(against + evidence.hit_m));
+        Refusal::Contradiction { conflicts, compared }
+    } else {
+        Refusal::NoOverlap { have: cells(evidence.hit_m), need: cells(params.min_wall_m) }
+    })
+}
+
+impl MatchParams {
+    fn check(&self) -> Result<(), MatchError> {
+        let in_unit = |value: f64| value > 0.0 && value <= 1.0;
+        check("accept", "above 0 and at most 1", self.accept, in_unit(self.accept))?;
+        let not_negative = |value: f64| value.is_finite() && value >= 0.0;
+        let requirement = "finite and not below 0";
+        check("min_wall_m", requirement, self.min_wall_m, not_negative(self.min_wall_m))?;
+        if let Some(prior) = &self.prior {
+            check_pose(&prior.target_from_source)?;
+            check("prior.sigma_m", requirement, prior.sigma_m, not_negative(prior.sigma_m))?;
+            check("prior.sigma_rad", requirement, prior.sigma_rad, not_negative(prior.sigma_rad))?;
+        }
+        Ok(())
+    }
+}
+
+fn check(
+    name: &'static str,
+    requirement: &'static str,
+    value: f64,
+    holds: bool,
+) -> Result<(), MatchError> {
+    if holds { Ok(()) } else { Err(MatchError::InvalidParameter { name, requirement, value }) }
+}
+
+fn check_pose(target_from_source: &Se2) -> Result<(), MatchError> {
+    let pose = target_from_source;
+    if pose.is_finite() {
+        Ok(())
+    } else {
+        Err(MatchError::NonFinitePose { x: pose.x(), y: pose.y(), theta: pose.theta() })
+    }
+}

@@ -1,0 +1,286 @@
+//! What is computed of one map alone, whatever it is matched with.
+
+use nalgebra::{Point2, Vector2};
+use ogm_core::{CellClass, ClassThresholds, Grid, OccupancyGrid, Se2, l2_distance_sq};
+
+use crate::lattice::{Lattice, floor_index};
+use crate::smooth::smooth_rows_and_columns;
+use crate::spectrum::{Spectrum, hough_spectrum};
+
+/// Distances are cut off here, metres: twice what the widest refinement still weighs.
+const FARTHEST_M: f64 = 2.0;
+/// Empty border around the known cells, metres, so that walls at their edge attract from outside.
+const BORDER_M: f64 = 0.8;
+/// Least metres of wall that a point stands for.
+const SPACING_M: f64 = 0.1;
+/// Most sampled cells that stand for the known area.
+const MOST_SAMPLES: usize = 6000;
+/// Most cells after coarsening: a square of 200 m a side at 0.05 m.
+const MOST_CELLS: usize = 1 << 24;
+
+/// What a matcher needs of one map: where its walls are, how far every place is from them, from
+/// which side they were seen. Make it once for a map that is matched several times.
+#[derive(Debug, Clone)]
+pub struct PreparedMap {
+    /// Metres, x and y from the corner of the padded crop along the axes of the grid.
+    pub(crate) map_from_local: Se2,
+    pub(crate) lattice: Lattice,
+    pub(crate) state: Vec<State>,
+    /// Metres to the nearest occupied cell, cut off.
+    pub(crate) distance: Vec<f32>,
+    /// Share of free cells around, smoothed; its gradient points away from walls.
+    pub(crate) openness: Vec<f32>,
+    /// In an order without pattern, so that any prefix is a fair sample.
+    pub(crate) walls: Vec<WallPoint>,
+    /// Metres of wall that a point stands for.
+    pub(crate) spacing: f64,
+    pub(crate) samples: Vec<AreaSample>,
+    /// Square metres that a sample stands for.
+    pub(crate) sample_area: f64,
+    /// Centroid of the known cells, local.
+    pub(crate) centre: Point2<f64>,
+    pub(crate) occupied_cells: usize,
+    pub(crate) spectrum: Spectrum,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u8)]
+pub(crate) enum State {
+    Unknown,
+    Free,
+    Occupied,
+}
+
+/// A point on a wall, local frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct WallPoint {
+    pub(crate) at: Point2<f64>,
+    /// Unit vector into free space; zero where both sides are free, or none.
+    pub(crate) normal: Vector2<f64>,
+}
+
+/// The centre of a known cell, local frame.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct AreaSample {
+    pub(crate) at: Point2<f64>,
+    pub(crate) free: bool,
+}
+
+impl PreparedMap {
+    /// Prepares `map`. Maps of more than 2²⁴ known cells are halved until they are smaller.
+    #[must_use]
+    pub fn new(map: &OccupancyGrid, thresholds: &ClassThresholds) -> Self {
+        let crop = Crop::of(map, thresholds);
+        let Crop { mut state, lattice, map_from_local } = crop;
+        drop_lone_occupied(&mut state, &lattice);
+        let occupied_cells = count(&state, State::Occupied);
+        let distance = wall_distance(&state, &lattice);
+        let openness = openness(&state, &lattice);
+        let spacing = SPACING_M.max(1.01 * lattice.resolution);
+        let walls = wall_points(&state, &openness, &lattice, spacing);
+        let (samples, sample_area) = area_samples(&state, &lattice);
+        let centre = centroid(&samples);
+        let bin = SPACING_M.max(1.5 * lattice.resolution);
+        let spectrum = hough_spectrum(&walls, bin);
+        Self {
+            map_from_local,
+            lattice,
+            state,
+            distance,
+            openness,
+            walls,
+            spacing,
+            samples,
+            sample_area,
+            centre,
+            occupied_cells,
+            spectrum,
+        }
+    }
+
+    /// Metres a cell, after any halving.
+    #[must_use]
+    pub fn resolution(&self) -> f64 {
+        self.lattice.resolution
+    }
+
+    /// Metres of wall in the map.
+    #[must_use]
+    pub fn wall_length(&self) -> f64 {
+        self.walls.len() as f64 * self.spacing
+    }
+
+    /// Square metres that the map knows.
+    #[must_use]
+    pub fn known_area(&self) -> f64 {
+        self.samples.len() as f64 * self.sample_area
+    }
+}
+
+/// The known part of a map with a border around.
+struct Crop {
+    state: Vec<State>,
+    lattice: Lattice,
+    map_from_local: Se2,
+}
+
+impl Crop {
+    fn of(map: &OccupancyGrid, thresholds: &ClassThresholds) -> Self {
+        let classes = map.cells().map(|&cell| match thresholds.classify(cell) {
+            CellClass::Occupied => State::Occupied,
+            CellClass::Free => State::Free,
+            CellClass::Undecided | CellClass::Unknown => State::Unknown,
+        });
+        let [left, bottom, width, height] = known_box(&classes);
+        let mut factor = 1;
+        while (width / factor) * (height / factor) > MOST_CELLS {
+            factor *= 2;
+        }
+        let resolution = map.frame().resolution() * factor as f64;
+        let border = floor_index(BORDER_M / resolution).min(64) + 1;
+        let lattice = Lattice {
+            width: width.div_ceil(factor) + 2 * border,
+            height: height.div_ceil(factor) + 2 * border,
+            resolution,
+        };
+        let mut state = vec![State::Unknown; lattice.width * lattice.height];
+        for row in 0..height {
+            let known = &classes.row(bottom + row)[left..left + width];
+            let output = &mut state[(row / factor + border) * lattice.width + border..];
+            for (column, &cell) in known.iter().enumerate() {
+                let kept = &mut output[column / factor];
+                *kept = cell.max(*kept);
+            }
+        }
+        let origin = map.frame().map_from_grid();
+        let fine = map.frame().resolution();
+        let inset = border as f64 * resolution;
+        let corner = Se2::new(left as f64 * fine - inset, bottom as f64 * fine - inset, 0.0);
+        Self { state, lattice, map_from_local: origin * corner }
+    }
+}
+
+/// Left, bottom, width and height of the known cells; one cell if there is none.
+fn known_box(classes: &Grid<State>) -> [usize; 4] {
+    let known = |cell: &State| *cell != State::Unknown;
+    let (mut left, mut right) = (usize::MAX, 0);
+    let (mut bottom, mut top) = (usize::MAX, 0);
+    for (row, cells) in classes.rows().enumerate() {
+        let Some(first) = cells.iter().position(known) else { continue };
+        let last = cells.iter().rposition(known).unwrap_or(first);
+        left = left.min(first);
+        right = right.max(last);
+        bottom = bottom.min(row);
+        top = row;
+    }
+    if bottom == usize::MAX {
+        [0, 0, 1, 1]
+    } else {
+        [left, bottom, right - left + 1, top - bottom + 1]
+    }
+}
+
+/// An occupied cell without an occupied neighbour is noise: nothing is said about it.
+fn drop_lone_occupied(state: &mut [State], lattice: &Lattice) {
+    let width = lattice.width;
+    let lone: Vec<usize> = (width + 1..state.len().saturating_sub(width + 1))
+        .filter(|&at| state[at] == State::Occupied)
+        .filter(|&at| {
+            let around = |from: usize| state[from - 1..=from + 1].iter();
+            let neighbours = around(at - width).chain(around(at)).chain(around(at + width));
+            neighbours.filter(|&&cell| cell == State::Occupied).count() == 1
+        })
+        .collect();
+    for at in lone {
+        state[at] = State::Unknown;
+    }
+}
+
+fn count(state: &[State], wanted: State) -> usize {
+    state.iter().filter(|&&cell| cell == wanted).count()
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a distance in metres of single precision")]
+fn wall_distance(state: &[State], lattice: &Lattice) -> Vec<f32> {
+    let occupied = state.iter().map(|&cell| cell == State::Occupied).collect();
+    let squared = Grid::new(lattice.width, lattice.height, occupied)
+        .ok()
+        .and_then(|mask| l2_distance_sq(&mask));
+    match squared {
+        Some(squared) => {
+            let (resolution, farthest) = (lattice.resolution as f32, FARTHEST_M as f32);
+            let metres = |&cells: &u32| ((cells as f32).sqrt() * resolution).min(farthest);
+            squared.cells().iter().map(metres).collect()
+        }
+        None => vec![FARTHEST_M as f32; state.len()],
+    }
+}
+
+fn openness(state: &[State], lattice: &Lattice) -> Vec<f32> {
+    let free = state.iter().map(|&cell| if cell == State::Free { 1.0 } else { 0.0 }).collect();
+    let sigma = (0.08 / lattice.resolution).max(1.2);
+    smooth_rows_and_columns(free, lattice.width, sigma)
+}
+
+/// One point for each square of `spacing` that holds wall: the mean of its occupied cells.
+fn wall_points(
+    state: &[State],
+    openness: &[f32],
+    lattice: &Lattice,
+    spacing: f64,
+) -> Vec<WallPoint> {
+    let columns = floor_index(lattice.width as f64 * lattice.resolution / spacing) + 1;
+    let rows = floor_index(lattice.height as f64 * lattice.resolution / spacing) + 1;
+    let mut sums = vec![(Vector2::zeros(), 0_u32); columns * rows];
+    for (at, _) in state.iter().enumerate().filter(|&(_, &cell)| cell == State::Occupied) {
+        let centre = lattice.centre(at);
+        let (column, row) = (floor_index(centre.x / spacing), floor_index(centre.y / spacing));
+        let (sum, cells) = &mut sums[row * columns + column];
+        *sum += centre.coords;
+        *cells += 1;
+    }
+    let mut points: Vec<(u64, WallPoint)> = (0_u64..)
+        .zip(sums)
+        .filter(|(_, (_, cells))| *cells > 0)
+        .map(|(index, (sum, cells))| {
+            let at = Point2::from(sum / f64::from(cells));
+            let cell = lattice.index(at);
+            let normal = cell.map_or_else(Vector2::zeros, |cell| lattice.direction(openness, cell));
+            (scatter(index), WallPoint { at, normal })
+        })
+        .collect();
+    points.sort_unstable_by_key(|&(order, _)| order);
+    points.into_iter().map(|(_, point)| point).collect()
+}
+
+/// The finaliser of SplitMix64: a bijection, so no two indices tie.
+fn scatter(index: u64) -> u64 {
+    let mut bits = index.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    bits ^ (bits >> 31)
+}
+
+/// Known cells on a square lattice, and the area that each stands for.
+fn area_samples(state: &[State], lattice: &Lattice) -> (Vec<AreaSample>, f64) {
+    let known = state.len() - count(state, State::Unknown);
+    let mut stride = 1;
+    while known / (stride * stride) > MOST_SAMPLES {
+        stride += 1;
+    }
+    let mut samples = Vec::new();
+    for row in (stride / 2..lattice.height).step_by(stride) {
+        for column in (stride / 2..lattice.width).step_by(stride) {
+            let at = row * lattice.width + column;
+            if state[at] != State::Unknown {
+                samples.push(AreaSample { at: lattice.centre(at), free: state[at] == State::Free });
+            }
+        }
+    }
+    (samples, (stride as f64 * lattice.resolution).powi(2))
+}
+
+fn centroid(samples: &[AreaSample]) -> Point2<f64> {
+    let sum: Vector2<f64> = samples.iter().map(|sample| sample.at.coords).sum();
+    Point2::from(sum / samples.len().max(1) as f64)
+}

@@ -1,0 +1,158 @@
+//! The tiers of a search, from candidates to scored poses.
+
+use ogm_core::Se2;
+
+use crate::bounds::Bounds;
+use crate::params::Effort;
+use crate::prepare::PreparedMap;
+use crate::refine::refine;
+use crate::rotation;
+use crate::score::{Evidence, Reach, evidence, quick_score};
+use crate::translation::{Candidate, CoarsePair, distinct};
+use crate::work::Work;
+
+/// Scales of the first refinement, metres at a coarse cell of 0.2 m.
+const COARSE_SCALES: [f64; 7] = [0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.15];
+/// Wall points of each map in it.
+const COARSE_POINTS: usize = 400;
+/// Scales of the last refinement, metres, none below a cell.
+const FINE_SCALES: [f64; 8] = [0.2, 0.15, 0.1, 0.1, 0.08, 0.08, 0.08, 0.08];
+/// Wall points of each map in it and in the score.
+const FINE_POINTS: usize = 3000;
+/// Refined candidates closer than this are one, metres and radians.
+const SAME: (f64, f64) = (0.3, 0.04);
+
+/// A pose and all that is known about it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fit {
+    pub(crate) first_from_second: Se2,
+    pub(crate) evidence: Evidence,
+    pub(crate) score: f64,
+}
+
+/// What a tier tries.
+struct Tier {
+    rotations: Vec<f64>,
+    candidates: usize,
+    survivors: usize,
+}
+
+/// Two maps and what bounds their match.
+pub(crate) struct Search<'a> {
+    first: &'a PreparedMap,
+    second: &'a PreparedMap,
+    coarse: CoarsePair<'a>,
+    bounds: Option<Bounds>,
+    suggested: Vec<f64>,
+    pub(crate) work: Work,
+    pub(crate) fits: Vec<Fit>,
+}
+
+impl<'a> Search<'a> {
+    pub(crate) fn new(
+        first: &'a PreparedMap,
+        second: &'a PreparedMap,
+        bounds: Option<Bounds>,
+        work: Work,
+    ) -> Self {
+        let coarse = CoarsePair::new(first, second);
+        let mut suggested = rotation::by_spectrum(&first.spectrum, &second.spectrum, 4);
+        if let Some(bounds) = &bounds {
+            suggested.retain(|&theta| bounds.allows_rotation(theta));
+            suggested.extend(bounds.rotations());
+        }
+        if suggested.is_empty() {
+            suggested = rotation::sweep();
+        }
+        Self { first, second, coarse, bounds, suggested, work, fits: Vec::new() }
+    }
+
+    /// Runs one tier and adds what it finds to the fits.
+    pub(crate) fn run(&mut self, effort: Effort) {
+        let tier = self.tier(effort);
+        let mut candidates = self.coarse.candidates(
+            &tier.rotations,
+            tier.candidates,
+            self.bounds.as_ref(),
+            &mut self.work,
+        );
+        if let Some(bounds) = self.bounds.filter(|_| effort == Effort::Fast) {
+            let first_from_second = bounds.first_from_second;
+            candidates.push(Candidate { first_from_second, score: 0.0 });
+        }
+        let promising = self.settle(candidates, tier.survivors);
+        self.judge(&promising);
+    }
+
+    fn tier(&self, effort: Effort) -> Tier {
+        match effort {
+            Effort::Fast => {
+                Tier { rotations: self.suggested.clone(), candidates: 60, survivors: 16 }
+            }
+            Effort::Standard => {
+                let degree = 1.0_f64.to_radians();
+                let step = 1.5 * self.coarse.cell / self.coarse.radius();
+                let step = step.clamp(0.5 * degree, 2.0 * degree);
+                let rotations = rotation::fan(&self.suggested, 0.9 * degree, step);
+                Tier { rotations, candidates: 100, survivors: 16 }
+            }
+            Effort::Thorough => {
+                let mut rotations = rotation::sweep();
+                if let Some(bounds) = &self.bounds {
+                    rotations.retain(|&theta| bounds.allows_rotation(theta));
+                }
+                Tier { rotations, candidates: 150, survivors: 24 }
+            }
+        }
+    }
+
+    /// Lets candidates follow the walls and keeps the `most` that then fit best.
+    fn settle(&mut self, candidates: Vec<Candidate>, most: usize) -> Vec<Candidate> {
+        let ratio = self.coarse.cell / 0.2;
+        let scales = COARSE_SCALES.map(|scale| scale * ratio);
+        let reach = self.reach();
+        let mut settled = Vec::with_capacity(candidates.len());
+        for candidate in candidates {
+            if !self.work.spend_points(2 * COARSE_POINTS * (scales.len() + 1)) {
+                break;
+            }
+            let (first, second) = (self.first, self.second);
+            let start_first_from_second = candidate.first_from_second;
+            let first_from_second =
+                refine(first, second, start_first_from_second, &scales, COARSE_POINTS);
+            let score = quick_score(first, second, &first_from_second, reach, COARSE_POINTS);
+            settled.push(Candidate { first_from_second, score });
+        }
+        settled.sort_by(|a, b| b.score.total_cmp(&a.score));
+        distinct(settled, self.second.centre, SAME.0, SAME.1, most)
+    }
+
+    /// Refines and scores the promising poses in full.
+    fn judge(&mut self, promising: &[Candidate]) {
+        let scales = FINE_SCALES.map(|scale| scale.max(self.resolution()));
+        let points =
+            self.first.walls.len().min(FINE_POINTS) + self.second.walls.len().min(FINE_POINTS);
+        for candidate in promising {
+            if !self.work.spend_points(points * (scales.len() + 1)) {
+                break;
+            }
+            let (first, second) = (self.first, self.second);
+            let start_first_from_second = candidate.first_from_second;
+            let first_from_second =
+                refine(first, second, start_first_from_second, &scales, FINE_POINTS);
+            if self.bounds.is_some_and(|bounds| !bounds.contains(&first_from_second)) {
+                continue;
+            }
+            let evidence = evidence(first, second, &first_from_second, self.reach(), FINE_POINTS);
+            self.fits.push(Fit { first_from_second, evidence, score: evidence.score() });
+        }
+    }
+
+    fn reach(&self) -> Reach {
+        Reach::at(self.resolution())
+    }
+
+    fn resolution(&self) -> f64 {
+        self.first.resolution().max(self.second.resolution())
+    }
+}

@@ -1,0 +1,84 @@
+//! Hough spectra: in which directions the walls of a map run, wherever they are.
+
+use std::f64::consts::PI;
+
+use crate::lattice::floor_index;
+use crate::prepare::WallPoint;
+
+/// Angles of a spectrum over half a turn: a quarter of a degree.
+pub(crate) const ANGLES: usize = 720;
+/// Most wall points of a spectrum; more change nothing.
+const MOST_POINTS: usize = 1500;
+/// Angles of the window whose minimum counts as no direction at all.
+const WINDOW: usize = 91;
+
+/// Strength of every wall direction over half a turn, of mean 0 and norm 1, or all zero.
+pub(crate) type Spectrum = Vec<f64>;
+
+/// h(θ) = Σ_ρ HT(θ, ρ)², less its lower envelope, its root, then normalised (after Carpin, *Fast
+/// and accurate map merging for multi-robot systems*, Autonomous Robots 25, 2008).
+pub(crate) fn hough_spectrum(walls: &[WallPoint], bin: f64) -> Spectrum {
+    let points = &walls[..walls.len().min(MOST_POINTS)];
+    if points.is_empty() {
+        return vec![0.0; ANGLES];
+    }
+    let mean = points.iter().map(|wall| wall.at.coords).sum::<nalgebra::Vector2<f64>>()
+        / points.len() as f64;
+    let reach = points.iter().map(|wall| (wall.at.coords - mean).norm()).fold(0.0, f64::max);
+    let offsets: Vec<[f64; 2]> = points
+        .iter()
+        .map(|wall| (wall.at.coords - mean) / bin)
+        .map(|offset| [offset.x, offset.y])
+        .collect();
+    let middle = reach / bin + 1.0;
+    let mut votes = vec![0.0_f64; floor_index(2.0 * middle) + 3];
+    let power: Vec<f64> = (0..ANGLES)
+        .map(|index| {
+            let (sin, cos) = (index as f64 * PI / ANGLES as f64).sin_cos();
+            votes.fill(0.0);
+            for [x, y] in &offsets {
+                let rho = x * cos + y * sin + middle;
+                let at = floor_index(rho);
+                let upper = rho - at as f64;
+                votes[at] += 1.0 - upper;
+                votes[at + 1] += upper;
+            }
+            votes.iter().map(|vote| vote * vote).sum()
+        })
+        .collect();
+    normalised(&above_envelope(&power))
+}
+
+/// The root of what stands above the smoothed running minimum.
+fn above_envelope(power: &[f64]) -> Vec<f64> {
+    let half = WINDOW / 2;
+    let window = |values: &[f64], at: usize| -> Vec<f64> {
+        (0..WINDOW).map(|offset| values[(at + ANGLES + offset - half) % ANGLES]).collect()
+    };
+    let lowest: Vec<f64> =
+        (0..ANGLES).map(|at| window(power, at).into_iter().fold(f64::INFINITY, f64::min)).collect();
+    (0..ANGLES)
+        .map(|at| {
+            let envelope = window(&lowest, at).iter().sum::<f64>() / WINDOW as f64;
+            (power[at] - envelope).max(0.0).sqrt()
+        })
+        .collect()
+}
+
+fn normalised(values: &[f64]) -> Spectrum {
+    let mean = values.iter().sum::<f64>() / values.len() as f64;
+    let norm = values.iter().map(|value| (value - mean).powi(2)).sum::<f64>().sqrt();
+    let scale = if norm > 0.0 { 1.0 / norm } else { 0.0 };
+    values.iter().map(|value| (value - mean) * scale).collect()
+}
+
+/// Correlation in [−1, 1] of `target` with `source` turned by each multiple of π/[`ANGLES`].
+pub(crate) fn circular_correlation(target: &[f64], source: &[f64]) -> Vec<f64> {
+    (0..ANGLES)
+        .map(|shift| {
+            let (head, tail) = target.split_at(shift);
+            let turned = tail.iter().chain(head);
+            turned.zip(source).map(|(a, b)| a * b).sum()
+        })
+        .collect()
+}

@@ -9,7 +9,7 @@ use serde_json::Value;
 const HOMES: [(&str, &[&str]); 4] = [
     ("faer", &["pose-graph2d"]),
     ("parry2d", &["icp2d"]),
-    ("image", &["ogm-io", "ogm-cli", "ogm-bench", "xtask"]),
+    ("image", &["ogm-io", "ogm-view", "ogm-bench", "xtask"]),
     ("serde-saphyr", &["ogm-io"]),
 ];
 

@@ -6,10 +6,11 @@ use image::RgbImage;
 use nalgebra::Point2;
 use ogm_core::{OccupancyGrid, Se2, TagReading};
 use ogm_merge::{Method, RfidParams, RobotMap, align};
+use ogm_view::{crop_known, occupancy, overlay, png, side_by_side};
 use rfid_loc::{FilterParams, TagFilter};
 
 use super::worlds::{Building, World};
-use crate::draw::{Heat, crop_known, heat, occupancy, overlay, png, side_by_side};
+use crate::draw::{Heat, heat};
 use crate::report::{Figure, Image};
 
 /// Tag error of the alignment pictures, px an axis: at 10 px the three methods differ visibly.

@@ -1,9 +1,9 @@
 //! The real pairs as method #3 laid them over each other.
 
 use ogm_core::Se2;
+use ogm_view::{overlay, png};
 
 use super::pair_input::MapPair;
-use crate::draw::{overlay, png};
 use crate::report::{Figure, Image};
 
 /// One overlay for each pair that was merged.

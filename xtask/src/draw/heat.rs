@@ -2,9 +2,9 @@
 
 use image::RgbImage;
 use ogm_core::Grid;
+use ogm_view::{UNKNOWN, enlarge, paint, reduce};
 
-use super::palette::{UNKNOWN, ramp};
-use super::raster::{enlarge, paint, reduce};
+use super::palette::ramp;
 
 /// How a field becomes colours.
 #[derive(Debug, Clone, PartialEq)]
@@ -59,8 +59,9 @@ pub(crate) fn heat(field: &Grid<f64>, style: &Heat) -> anyhow::Result<RgbImage> 
 #[cfg(test)]
 mod tests {
     use super::{Heat, heat};
-    use crate::draw::palette::{UNKNOWN, ramp};
+    use crate::draw::palette::ramp;
     use ogm_core::Grid;
+    use ogm_view::UNKNOWN;
 
     fn field() -> Grid<f64> {
         Grid::new(3, 2, vec![0.0, 0.25, 1.0, f64::NAN, 0.5, 0.0]).unwrap()

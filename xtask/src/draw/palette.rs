@@ -1,6 +1,7 @@
-//! Colours that stay apart for colour-blind readers.
+//! Colours of charts and heat maps that stay apart for colour-blind readers.
 
 use image::Rgb;
+use ogm_view::UNKNOWN;
 
 /// Series colours: those of Okabe and Ito, *Color universal design*, without yellow, which a white
 /// panel swallows.
@@ -11,19 +12,6 @@ const SERIES: [&str; 7] =
 pub(crate) const INK: &str = "#333333";
 /// Grid lines.
 pub(crate) const FAINT: &str = "#dddddd";
-
-/// Never observed: mid grey with a hint of blue, which no probability has.
-pub(crate) const UNKNOWN: Rgb<u8> = Rgb([140, 148, 162]);
-/// Seen free by either of two maps.
-pub(crate) const FREE: Rgb<u8> = Rgb([238, 238, 238]);
-/// A wall of the target map only.
-pub(crate) const TARGET_WALL: Rgb<u8> = Rgb([0, 114, 178]);
-/// A wall of the source map only.
-pub(crate) const SOURCE_WALL: Rgb<u8> = Rgb([213, 94, 0]);
-/// A wall of both maps.
-pub(crate) const COMMON_WALL: Rgb<u8> = Rgb([20, 20, 20]);
-/// Neither map has seen it.
-pub(crate) const BLANK: Rgb<u8> = Rgb([255, 255, 255]);
 
 /// The colour of series `index`; they repeat after seven.
 pub(crate) fn series(index: usize) -> &'static str {
@@ -62,14 +50,15 @@ pub(crate) fn ramp(share: f64) -> Rgb<u8> {
     clippy::cast_sign_loss,
     reason = "saturation is documented"
 )]
-pub(crate) fn to_byte(value: f64) -> u8 {
+fn to_byte(value: f64) -> u8 {
     value.round() as u8
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{UNKNOWN, VIRIDIS, ramp};
+    use super::{VIRIDIS, ramp};
     use image::Rgb;
+    use ogm_view::UNKNOWN;
 
     #[test]
     fn the_ramp_gets_lighter_all_the_way() {

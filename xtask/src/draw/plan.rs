@@ -2,10 +2,10 @@
 
 use nalgebra::Point2;
 use ogm_core::OccupancyGrid;
+use ogm_view::{crop_known, occupancy, png};
 
 use super::embed::png_data_uri;
 use super::palette::{INK, series};
-use super::raster::{crop_known, occupancy, png};
 use super::svg::{Anchor, Svg, round};
 
 /// Pixels of the longer side.

@@ -154,8 +154,8 @@ fn anchor(id: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::{html, png_width};
-    use crate::draw::png;
     use crate::report::{Report, sample};
+    use ogm_view::png;
 
     #[test]
     fn every_text_is_escaped() {

@@ -1,14 +1,14 @@
 //! Two maps drawn on each other.
 
-use anyhow::{Context, ensure};
 use image::RgbImage;
 use nalgebra::Point2;
 use ogm_core::{
     CellIndex, ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2, warp_nearest,
 };
 
-use super::palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL};
-use super::raster::{known_box, paint, reduce};
+use crate::ViewError;
+use crate::palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL};
+use crate::raster::{known_box, paint, reduce};
 
 /// The most cells that an overlay may cover: two large maps side by side, but not two maps that a
 /// wild transform put kilometres apart.
@@ -24,12 +24,16 @@ const TARGET_BIT: u8 = 4;
 /// # Errors
 /// A transform that is not finite, maps without a known cell, or maps that end up too far apart to
 /// be drawn together.
-pub(crate) fn overlay(
+pub fn overlay(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
     target_from_source: Se2,
-) -> anyhow::Result<RgbImage> {
-    ensure!(target_from_source.is_finite(), "the transform {target_from_source:?} is not finite");
+) -> Result<RgbImage, ViewError> {
+    if !target_from_source.is_finite() {
+        let motion = &target_from_source;
+        let (x, y, theta) = (motion.x(), motion.y(), motion.theta());
+        return Err(ViewError::NonFiniteTransform { x, y, theta });
+    }
     let lattice = target.frame();
     let corners = known_corners(target)
         .into_iter()
@@ -43,18 +47,18 @@ pub(crate) fn overlay(
                 [high[0].max(cell[0]), high[1].max(cell[1])],
             )
         })
-        .context("neither map has a known cell to draw")?;
+        .ok_or(ViewError::NothingKnown)?;
     let margin = 2;
     let size =
         [0, 1].map(|axis| high[axis].saturating_sub(low[axis]).saturating_add(1 + 2 * margin));
-    ensure!(
-        size[0].saturating_mul(size[1]) <= MAX_OVERLAY_CELLS,
-        "the maps span {} × {} cells together, too many to draw",
-        size[0],
-        size[1]
-    );
+    let [columns, rows] = size;
+    if columns.saturating_mul(rows) > MAX_OVERLAY_CELLS {
+        return Err(ViewError::TooManyCells { columns, rows, limit: MAX_OVERLAY_CELLS });
+    }
     let frame = lattice.shifted(low[0] - margin, low[1] - margin);
-    let size = (usize::try_from(size[0])?, usize::try_from(size[1])?);
+    // Both are positive and their product is checked.
+    let cells = |count: i64| usize::try_from(count).unwrap_or(0);
+    let size = (cells(columns), cells(rows));
     let mut bits = seen_as(target, &frame, size, Se2::identity(), TARGET_BIT)?;
     let others = seen_as(source, &frame, size, target_from_source, SOURCE_BIT)?;
     for (cell, other) in bits.cells_mut().iter_mut().zip(others.cells()) {
@@ -77,7 +81,7 @@ fn seen_as(
     size: (usize, usize),
     target_from_source: Se2,
     wall: u8,
-) -> anyhow::Result<Grid<u8>> {
+) -> Result<Grid<u8>, ViewError> {
     let outside = Occupancy::UNKNOWN;
     let motion = &target_from_source;
     let cells = warp_nearest(map.cells(), map.frame(), frame, size, motion, outside)?;
@@ -103,7 +107,7 @@ fn known_corners(map: &OccupancyGrid) -> Vec<Point2<f64>> {
 #[cfg(test)]
 mod tests {
     use super::overlay;
-    use crate::draw::palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL};
+    use crate::palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL};
     use ogm_core::{GridFrame, OccupancyGrid, Se2};
 
     fn map(picture: &str) -> OccupancyGrid {

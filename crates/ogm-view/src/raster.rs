@@ -1,27 +1,33 @@
 //! Maps as pixels.
 
-use anyhow::Context;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ImageEncoder, Rgb, RgbImage};
 use ogm_core::{CellIndex, Grid, OccupancyGrid};
 
-use super::palette::{BLANK, UNKNOWN, to_byte};
+use crate::ViewError;
+use crate::palette::{BLANK, UNKNOWN};
 
 /// Pictures of more cells a side show several cells a pixel.
-pub(crate) const MAX_SIDE: usize = 1000;
+pub const MAX_SIDE: usize = 1000;
 
 /// The map in greys: free light, occupied dark, unknown in the middle. Where a pixel holds several
 /// cells it shows the most occupied, so that thin walls stay.
-pub(crate) fn occupancy(map: &OccupancyGrid) -> RgbImage {
+#[must_use]
+pub fn occupancy(map: &OccupancyGrid) -> RgbImage {
     let cells = reduce(map.cells(), |a, b| match (a.is_known(), b.is_known()) {
         (true, true) => a.max(b),
         (true, false) => a,
         _ => b,
     });
     paint(&cells, |cell| match cell.probability() {
-        Some(p) => Rgb([to_byte(255.0 - 255.0 * p); 3]),
+        Some(p) => Rgb([grey(p); 3]),
         None => UNKNOWN,
     })
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "p is in [0, 1]")]
+fn grey(p: f64) -> u8 {
+    (255.0 - 255.0 * p).round() as u8
 }
 
 /// Unknown cells that a crop leaves around the known ones.
@@ -32,7 +38,7 @@ const MARGIN: usize = 2;
 ///
 /// # Errors
 /// None that a map could cause; the constructors are asked all the same.
-pub(crate) fn crop_known(map: &OccupancyGrid) -> anyhow::Result<OccupancyGrid> {
+pub fn crop_known(map: &OccupancyGrid) -> Result<OccupancyGrid, ViewError> {
     let Some((low, high)) = known_box(map) else {
         return Ok(map.clone());
     };
@@ -42,12 +48,14 @@ pub(crate) fn crop_known(map: &OccupancyGrid) -> anyhow::Result<OccupancyGrid> {
     let rows = map.cells().rows().skip(first[1]).take(end[1] - first[1]);
     let cells = rows.flat_map(|row| &row[first[0]..end[0]]).copied().collect();
     let grid = Grid::new(end[0] - first[0], end[1] - first[1], cells)?;
-    let frame = map.frame().shifted(i64::try_from(first[0])?, i64::try_from(first[1])?);
+    // A grid has fewer than 2³² columns and rows.
+    let cells = |count: usize| i64::try_from(count).unwrap_or(i64::MAX);
+    let frame = map.frame().shifted(cells(first[0]), cells(first[1]));
     Ok(OccupancyGrid::new(frame, grid))
 }
 
 /// Lowest and highest column and row that hold a known cell.
-pub(super) fn known_box(map: &OccupancyGrid) -> Option<(CellIndex, CellIndex)> {
+pub(crate) fn known_box(map: &OccupancyGrid) -> Option<(CellIndex, CellIndex)> {
     let known = map.cells().indexed().filter(|(_, cell)| cell.is_known());
     known.fold(None, |corners, (at, _)| {
         let (low, high) = corners.unwrap_or((at, at));
@@ -58,7 +66,11 @@ pub(super) fn known_box(map: &OccupancyGrid) -> Option<(CellIndex, CellIndex)> {
 }
 
 /// Square blocks of cells as one cell, so that no side exceeds [`MAX_SIDE`].
-pub(super) fn reduce<T: Copy>(grid: &Grid<T>, merge: impl Fn(T, T) -> T) -> Grid<T> {
+///
+/// # Panics
+/// Never: every block holds at least its corner cell.
+#[must_use]
+pub fn reduce<T: Copy>(grid: &Grid<T>, merge: impl Fn(T, T) -> T) -> Grid<T> {
     let factor = grid.width().max(grid.height()).div_ceil(MAX_SIDE);
     let (width, height) = (grid.width().div_ceil(factor), grid.height().div_ceil(factor));
     let corner = |position: usize| CellIndex {
@@ -75,7 +87,11 @@ pub(super) fn reduce<T: Copy>(grid: &Grid<T>, merge: impl Fn(T, T) -> T) -> Grid
 }
 
 /// One pixel a cell, the highest row at the top.
-pub(super) fn paint<T>(grid: &Grid<T>, colour: impl Fn(&T) -> Rgb<u8>) -> RgbImage {
+///
+/// # Panics
+/// Never: a grid has fewer than 2³² columns and rows.
+#[must_use]
+pub fn paint<T>(grid: &Grid<T>, colour: impl Fn(&T) -> Rgb<u8>) -> RgbImage {
     let size = |cells: usize| u32::try_from(cells).expect("a grid has fewer than 2³² rows");
     let mut image = RgbImage::new(size(grid.width()), size(grid.height()));
     let cells = grid.rows().rev().flatten();
@@ -86,7 +102,8 @@ pub(super) fn paint<T>(grid: &Grid<T>, colour: impl Fn(&T) -> Rgb<u8>) -> RgbIma
 }
 
 /// Each pixel as a square of `factor` pixels.
-pub(crate) fn enlarge(image: &RgbImage, factor: u32) -> RgbImage {
+#[must_use]
+pub fn enlarge(image: &RgbImage, factor: u32) -> RgbImage {
     let factor = factor.max(1);
     RgbImage::from_fn(image.width() * factor, image.height() * factor, |x, y| {
         *image.get_pixel(x / factor, y / factor)
@@ -95,7 +112,8 @@ pub(crate) fn enlarge(image: &RgbImage, factor: u32) -> RgbImage {
 
 /// Pictures in a row on white, `gap` pixels apart, scaled down if they exceed [`MAX_SIDE`] in
 /// width together.
-pub(crate) fn side_by_side(images: &[RgbImage], gap: u32) -> RgbImage {
+#[must_use]
+pub fn side_by_side(images: &[RgbImage], gap: u32) -> RgbImage {
     let gaps = gap * u32::try_from(images.len().saturating_sub(1)).unwrap_or(0);
     let width = images.iter().map(RgbImage::width).sum::<u32>() + gaps;
     let height = images.iter().map(RgbImage::height).max().unwrap_or(0);
@@ -117,18 +135,22 @@ pub(crate) fn side_by_side(images: &[RgbImage], gap: u32) -> RgbImage {
 ///
 /// # Errors
 /// A picture without area.
-pub(crate) fn png(image: &RgbImage) -> anyhow::Result<Vec<u8>> {
+pub fn png(image: &RgbImage) -> Result<Vec<u8>, ViewError> {
     let mut bytes = Vec::new();
     PngEncoder::new_with_quality(&mut bytes, CompressionType::Best, FilterType::NoFilter)
         .write_image(image, image.width(), image.height(), image::ExtendedColorType::Rgb8)
-        .with_context(|| format!("a picture of {} × {} pixels", image.width(), image.height()))?;
+        .map_err(|error| ViewError::Png {
+            width: image.width(),
+            height: image.height(),
+            message: error.to_string(),
+        })?;
     Ok(bytes)
 }
 
 #[cfg(test)]
 mod tests {
     use super::{crop_known, enlarge, occupancy, png, side_by_side};
-    use crate::draw::palette::{BLANK, COMMON_WALL, UNKNOWN};
+    use crate::palette::{BLANK, COMMON_WALL, UNKNOWN};
     use image::RgbImage;
     use ogm_core::{CellIndex, Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
 

@@ -1,0 +1,31 @@
+//! Occupancy grid maps as pictures.
+//!
+//! [`occupancy`] shows one map in greys, [`overlay`] two maps on each other. Where a map has more
+//! than [`MAX_SIDE`] cells a side a pixel shows several of them, and walls win, so that a thin wall
+//! of a large map stays visible. The highest row of a grid is at the top of its picture.
+//!
+//! ```
+//! use ogm_core::{GridFrame, OccupancyGrid, Se2};
+//! use ogm_view::{COMMON_WALL, SOURCE_WALL, TARGET_WALL, overlay};
+//!
+//! let frame = GridFrame::new(0.05, Se2::identity())?;
+//! let wall = OccupancyGrid::from_ascii(frame, "##")?;
+//! let picture = overlay(&wall, &wall, Se2::new(0.05, 0.0, 0.0))?;
+//! let row: Vec<_> = (2..5).map(|x| *picture.get_pixel(x, 2)).collect();
+//! assert_eq!(row, [TARGET_WALL, COMMON_WALL, SOURCE_WALL]);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+mod overlay;
+mod palette;
+mod raster;
+
+pub use error::ViewError;
+pub use overlay::overlay;
+pub use palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL, UNKNOWN};
+pub use raster::{MAX_SIDE, crop_known, enlarge, occupancy, paint, png, reduce, side_by_side};
+
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct ReadmeExamples;

@@ -5,6 +5,8 @@ use std::fs::{self, File, OpenOptions};
 use std::io::{self, ErrorKind, Read, Write};
 use std::path::{Path, PathBuf};
 
+use crate::IoError;
+
 /// The bytes of a regular file of at most `limit` bytes.
 pub(crate) fn read_at_most(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let file = File::open(path)?;
@@ -75,6 +77,21 @@ impl Drop for Temporary {
         // Gone already if it was put in place; nobody is left to tell if it cannot be removed.
         let _ = fs::remove_file(&self.path);
     }
+}
+
+/// Writes `bytes` as the file `path`, at once or not at all.
+///
+/// # Errors
+/// A file that exists unless `overwrite`; a folder that cannot be written. What was there is then
+/// as it was.
+pub fn write_file(path: &Path, bytes: &[u8], overwrite: bool) -> Result<(), IoError> {
+    let access = |cause| IoError::Access { path: path.to_owned(), action: "write", cause };
+    match fs::symlink_metadata(path) {
+        Ok(_) if !overwrite => return Err(IoError::Exists { path: path.to_owned() }),
+        Ok(metadata) if metadata.is_dir() => return Err(access(ErrorKind::IsADirectory.into())),
+        _ => {}
+    }
+    Temporary::write(path, bytes).and_then(|file| file.put_in_place()).map_err(access)
 }
 
 /// Puts an image and the YAML that names it in place: whoever looks sees the old pair, the new

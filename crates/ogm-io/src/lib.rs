@@ -37,6 +37,7 @@ mod warning;
 mod write;
 
 pub use classify::ReadOptions;
+pub use disk::write_file;
 pub use error::{IoError, MapImageError, TagLogError, YamlError};
 pub use header::{MapHeader, MapMode};
 pub use map::{LoadedMap, read_map, read_map_with};

@@ -1,0 +1,29 @@
+//! `ogm align`: the transform between two maps.
+
+use crate::Ending;
+use crate::args::AlignArgs;
+use crate::input::Input;
+use crate::progress::Progress;
+use crate::search::{Robot, check_tags, search};
+use crate::tags::logs_of;
+use crate::{terminal, text};
+
+pub(crate) fn run(args: &AlignArgs) -> anyhow::Result<Ending> {
+    let logs = logs_of(&[&args.target, &args.source], &args.search.tags)?;
+    check_tags(&args.search, &logs)?;
+    let quiet = args.search.quiet;
+    let target = Input::read(&args.target, quiet)?;
+    let source = Input::read(&args.source, quiet)?;
+    let answer = {
+        let _progress = Progress::start("aligning", quiet);
+        let target = Robot { input: &target, log: logs[0].as_ref() };
+        search(target, Robot { input: &source, log: logs[1].as_ref() }, &args.search)?
+    };
+    let text = if args.search.json {
+        serde_json::to_string_pretty(&answer)? + "\n"
+    } else {
+        text::pair(&answer)
+    };
+    terminal::result(&text)?;
+    Ok(answer.verdict.ending())
+}

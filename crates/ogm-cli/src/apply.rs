@@ -1,0 +1,23 @@
+//! `ogm apply`: a map in another frame.
+
+use grid_merge::{MergeParams, transform_grid};
+use ogm_io::{WriteOptions, write_map};
+
+use crate::args::ApplyArgs;
+use crate::input::Input;
+use crate::progress::Progress;
+use crate::{Ending, output, terminal, text};
+
+pub(crate) fn run(args: &ApplyArgs) -> anyhow::Result<Ending> {
+    let input = Input::read(&args.map, args.quiet)?;
+    let image = output::image_of(&args.output);
+    output::check(&[&args.output, &image], &input.paths(), args.force)?;
+    let moved = {
+        let _progress = Progress::start("moving", args.quiet);
+        transform_grid(input.map(), &args.transform.into(), &MergeParams::default())?
+    };
+    let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };
+    write_map(&args.output, &moved, &options)?;
+    terminal::result(&text::written(&args.output, &moved))?;
+    Ok(Ending::Done)
+}

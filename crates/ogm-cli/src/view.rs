@@ -1,0 +1,24 @@
+//! `ogm view`: maps as pictures.
+
+use ogm_io::write_file;
+use ogm_view::{occupancy, overlay, png};
+
+use crate::args::ViewArgs;
+use crate::input::Input;
+use crate::progress::Progress;
+use crate::{Ending, output};
+
+pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
+    let target = Input::read(&args.target, args.quiet)?;
+    let source = args.source.as_ref().map(|path| Input::read(path, args.quiet)).transpose()?;
+    let inputs: Vec<_> = [Some(&target), source.as_ref()].into_iter().flatten().collect();
+    let paths: Vec<_> = inputs.iter().flat_map(|input| input.paths()).collect();
+    output::check(&[&args.output], &paths, args.force)?;
+    let _progress = Progress::start("drawing", args.quiet);
+    let picture = match source.as_ref().zip(args.transform) {
+        Some((source, transform)) => overlay(target.map(), source.map(), transform.into())?,
+        None => occupancy(target.map()),
+    };
+    write_file(&args.output, &png(&picture)?, args.force)?;
+    Ok(Ending::Done)
+}

@@ -1,5 +1,6 @@
 //! `ogm apply`: a map in another frame.
 
+use anyhow::Context;
 use grid_merge::{MergeParams, transform_grid};
 use ogm_io::{WriteOptions, write_map};
 
@@ -14,7 +15,8 @@ pub(crate) fn run(args: &ApplyArgs) -> anyhow::Result<Ending> {
     output::check(&[&args.output, &image], &input.paths(), args.force)?;
     let moved = {
         let _progress = Progress::start("moving", args.quiet);
-        transform_grid(input.map(), &args.transform.into(), &MergeParams::default())?
+        transform_grid(input.map(), &args.transform.into(), &MergeParams::default())
+            .with_context(|| format!("cannot move {} by --transform", input.name()))?
     };
     let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };
     write_map(&args.output, &moved, &options)?;

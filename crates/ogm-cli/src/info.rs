@@ -10,6 +10,7 @@ use crate::answer::SCHEMA;
 use crate::args::InfoArgs;
 use crate::input::Input;
 use crate::pose::Pose;
+use crate::progress::Progress;
 use crate::{Ending, terminal};
 
 #[derive(Debug, Serialize)]
@@ -40,7 +41,10 @@ struct Counts {
 }
 
 pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<Ending> {
-    let input = Input::read_silently(&args.map)?;
+    let input = {
+        let _progress = Progress::start("reading", false);
+        Input::read_silently(&args.map)?
+    };
     let info = Info::of(&input);
     let text = if args.json { serde_json::to_string_pretty(&info)? + "\n" } else { info.text() };
     terminal::result(&text)?;

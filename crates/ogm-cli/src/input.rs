@@ -10,6 +10,7 @@ use ogm_io::{LoadedMap, read_map};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
+use crate::progress::Progress;
 use crate::terminal;
 
 /// Which map a report is about.
@@ -32,7 +33,10 @@ pub(crate) struct Input {
 impl Input {
     /// Reads a map; says what is suspicious about it unless `quiet`.
     pub(crate) fn read(yaml: &Path, quiet: bool) -> anyhow::Result<Self> {
-        let input = Self::read_silently(yaml)?;
+        let input = {
+            let _progress = Progress::start("reading", quiet);
+            Self::read_silently(yaml)?
+        };
         if !quiet {
             for warning in &input.loaded.warnings {
                 terminal::warning(&format!("{}: {warning}", yaml.display()));

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use anyhow::Context;
 use grid_merge::{MergeParams, Merged, PlacedMap};
 use ogm_core::Se2;
 use ogm_io::{WriteOptions, write_file, write_map};
@@ -75,22 +76,31 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let target_robot = Robot { input: target, log: logs[0].as_ref() };
     let source_robot = Robot { input: source, log: logs[1].as_ref() };
     let pair = search(target_robot, source_robot, &args.search)?;
-    let overlay = match (&args.overlay, pair.target_from_source) {
-        (Some(path), Some(target_from_source)) => {
-            let picture = ogm_view::overlay(target.map(), source.map(), target_from_source)?;
-            Some((path, ogm_view::png(&picture)?))
-        }
-        _ => None,
+    let overlay = match &args.overlay {
+        Some(path) => drawn(path, &inputs, &pair)?,
+        None => None,
     };
-    let merged = fused(&inputs, &pair, args)?;
+    let merged = fused(&inputs, &pair, args)
+        .with_context(|| format!("cannot make {}", args.output.display()))?;
     drop(progress);
 
     if let Some(merged) = &merged {
         let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };
         write_map(&args.output, &merged.map, &options)?;
     }
-    if let Some((path, png)) = overlay {
-        write_file(path, &png, args.force)?;
+    match (&args.overlay, overlay) {
+        (Some(path), Some(png)) => {
+            write_file(path, &png, args.force)?;
+            if pair.verdict != Verdict::Merged && !quiet {
+                let path = path.display();
+                terminal::warning(&format!("{path} shows the best transform, which was refused"));
+            }
+        }
+        (Some(path), None) if !quiet => {
+            let path = path.display();
+            terminal::warning(&format!("{path} is not drawn: no transform was found"));
+        }
+        _ => {}
     }
     let ending = pair.verdict.ending();
     let answer = MergeAnswer {
@@ -118,6 +128,20 @@ fn check_outputs<'a>(
     outputs.extend([&args.report, &args.overlay].into_iter().flatten().map(AsRef::<Path>::as_ref));
     let inputs: Vec<&Path> = inputs.iter().flat_map(Input::paths).chain(logs).collect();
     output::check(&outputs, &inputs, args.force)
+}
+
+/// The maps on each other under the best transform, accepted or not, as a PNG.
+fn drawn(
+    path: &Path,
+    [target, source]: &[Input; 2],
+    pair: &PairAnswer,
+) -> anyhow::Result<Option<Vec<u8>>> {
+    let Some(target_from_source) = pair.target_from_source else {
+        return Ok(None);
+    };
+    let png = ogm_view::overlay(target.map(), source.map(), target_from_source)
+        .and_then(|picture| ogm_view::png(&picture));
+    Ok(Some(png.with_context(|| format!("cannot draw {}", path.display()))?))
 }
 
 /// Both maps in the frame of the first if they match; the first alone if that is allowed.

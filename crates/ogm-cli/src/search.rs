@@ -126,7 +126,7 @@ fn by_maps(target: Robot<'_>, source: Robot<'_>, args: &SearchArgs) -> anyhow::R
                 pose: Pose::from(hypothesis.target_from_source),
                 probability: Some(hypothesis.probability),
                 score: hypothesis.score,
-                covariance: Some(hypothesis.covariance.transpose().into()),
+                covariance: Some(hypothesis.covariance.into()),
             })
             .collect(),
         outcome: report.outcome,

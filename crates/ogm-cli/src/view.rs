@@ -1,5 +1,6 @@
 //! `ogm view`: maps as pictures.
 
+use anyhow::Context;
 use ogm_io::write_file;
 use ogm_view::{occupancy, overlay, png};
 
@@ -15,10 +16,13 @@ pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
     let paths: Vec<_> = inputs.iter().flat_map(|input| input.paths()).collect();
     output::check(&[&args.output], &paths, args.force)?;
     let _progress = Progress::start("drawing", args.quiet);
+    let cannot_draw = || format!("cannot draw {}", args.output.display());
     let picture = match source.as_ref().zip(args.transform) {
-        Some((source, transform)) => overlay(target.map(), source.map(), transform.into())?,
+        Some((source, transform)) => {
+            overlay(target.map(), source.map(), transform.into()).with_context(cannot_draw)?
+        }
         None => occupancy(target.map()),
     };
-    write_file(&args.output, &png(&picture)?, args.force)?;
+    write_file(&args.output, &png(&picture).with_context(cannot_draw)?, args.force)?;
     Ok(Ending::Done)
 }

@@ -3,16 +3,17 @@
 use image::RgbImage;
 use nalgebra::Point2;
 use ogm_core::{
-    CellIndex, ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2, warp_nearest,
+    CellIndex, ClassThresholds, Grid, GridFrame, MAX_CELLS, Occupancy, OccupancyGrid, Se2,
+    warp_nearest,
 };
 
 use crate::ViewError;
 use crate::palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL};
-use crate::raster::{known_box, paint, reduce};
+use crate::raster::{MAX_SIDE, known_box, paint};
 
-/// The most cells that an overlay may cover: two large maps side by side, but not two maps that a
+/// The most cells that an overlay may cover: as many as a map may have, but not two maps that a
 /// wild transform put kilometres apart.
-const MAX_OVERLAY_CELLS: i64 = 1 << 26;
+const MAX_OVERLAY_CELLS: i64 = MAX_CELLS as i64;
 
 const FREE_BIT: u8 = 1;
 const SOURCE_BIT: u8 = 2;
@@ -55,17 +56,29 @@ pub fn overlay(
     if columns.saturating_mul(rows) > MAX_OVERLAY_CELLS {
         return Err(ViewError::TooManyCells { columns, rows, limit: MAX_OVERLAY_CELLS });
     }
-    let frame = lattice.shifted(low[0] - margin, low[1] - margin);
     // Both are positive and their product is checked.
     let cells = |count: i64| usize::try_from(count).unwrap_or(0);
-    let size = (cells(columns), cells(rows));
-    let mut bits = seen_as(target, &frame, size, Se2::identity(), TARGET_BIT)?;
-    let others = seen_as(source, &frame, size, target_from_source, SOURCE_BIT)?;
-    for (cell, other) in bits.cells_mut().iter_mut().zip(others.cells()) {
-        *cell |= other;
+    let (columns, rows) = (cells(columns), cells(rows));
+    let factor = columns.max(rows).div_ceil(MAX_SIDE);
+    let mut bits = Grid::filled(columns.div_ceil(factor), rows.div_ceil(factor), 0_u8)?;
+    let width = bits.width();
+    // A strip for each row of pixels, so that a large map is not held twice.
+    let first_rows = (0_i64..).step_by(factor);
+    for (pixels, first_row) in bits.cells_mut().chunks_exact_mut(width).zip(first_rows) {
+        let frame = lattice.shifted(low[0] - margin, low[1] - margin + first_row);
+        let size = (columns, factor.min(rows - cells(first_row)));
+        for (map, pose, wall) in
+            [(target, Se2::identity(), TARGET_BIT), (source, target_from_source, SOURCE_BIT)]
+        {
+            for row in seen_as(map, &frame, size, pose, wall)?.rows() {
+                for (pixel, block) in pixels.iter_mut().zip(row.chunks(factor)) {
+                    *pixel = block.iter().fold(*pixel, |seen, bits| seen | bits);
+                }
+            }
+        }
     }
     let walls = SOURCE_BIT | TARGET_BIT;
-    Ok(paint(&reduce(&bits, |a, b| a | b), |&bits| match bits & walls {
+    Ok(paint(&bits, |&bits| match bits & walls {
         0 if bits & FREE_BIT != 0 => FREE,
         0 => BLANK,
         SOURCE_BIT => SOURCE_WALL,
@@ -127,6 +140,17 @@ mod tests {
         let (t, b, s) = (TARGET_WALL, COMMON_WALL, SOURCE_WALL);
         assert_eq!(walls, [BLANK, BLANK, t, t, b, s, s, BLANK, BLANK]);
         assert_eq!(*image.get_pixel(2, 3), FREE);
+    }
+
+    /// Three cells a pixel: the walls at both ends of 2994 columns keep their pixels.
+    #[test]
+    fn a_wall_of_one_cell_survives_a_large_map() {
+        let picture = format!("#{}#", ".".repeat(2992));
+        let target = map(&picture);
+        let image = overlay(&target, &map(&".".repeat(2994)), Se2::identity()).unwrap();
+        assert_eq!(image.dimensions(), (1000, 2));
+        let walls = |y| (0..1000).filter(move |&x| *image.get_pixel(x, y) == TARGET_WALL);
+        assert_eq!(walls(1).collect::<Vec<_>>(), [0, 998]);
     }
 
     #[test]

@@ -67,7 +67,7 @@ pub(crate) fn search(
         method: found.method,
         seed: args.seed,
         elapsed_ms,
-        copies: target.input.map() == source.input.map(),
+        copies: are_copies(target, source),
     })
 }
 
@@ -106,11 +106,12 @@ fn by_what_there_is(
 }
 
 fn by_maps(target: Robot<'_>, source: Robot<'_>, args: &SearchArgs) -> anyhow::Result<Found> {
-    let prior = args.prior.zip(args.prior_sigma).map(|(pose, sigma)| Prior {
+    let given = args.prior.zip(args.prior_sigma).map(|(pose, sigma)| Prior {
         target_from_source: pose.into(),
         sigma_m: sigma.metres,
         sigma_rad: sigma.degrees.to_radians(),
     });
+    let prior = given.or_else(|| are_copies(target, source).then(|| at_identity(target)));
     let params = MatchParams { accept: args.accept, prior, ..MatchParams::default() };
     let report = match_maps(target.input.map(), source.input.map(), &params)?;
     let best = report.hypotheses.first();
@@ -131,6 +132,21 @@ fn by_maps(target: Robot<'_>, source: Robot<'_>, args: &SearchArgs) -> anyhow::R
             .collect(),
         outcome: report.outcome,
     })
+}
+
+/// Whether both files hold the same cells in the same place.
+fn are_copies(target: Robot<'_>, source: Robot<'_>) -> bool {
+    target.input.map() == source.input.map()
+}
+
+/// Copies are believed to lie on each other: no second robot repeats every cell of the first, so
+/// the other ways to lay a symmetric building on itself are no rivals.
+fn at_identity(target: Robot<'_>) -> Prior {
+    Prior {
+        target_from_source: Se2::identity(),
+        sigma_m: target.input.map().frame().resolution(),
+        sigma_rad: 0.5_f64.to_radians(),
+    }
 }
 
 fn by_tags(

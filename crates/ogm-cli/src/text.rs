@@ -29,7 +29,7 @@ pub(crate) fn pair(answer: &PairAnswer) -> String {
         }
     };
     if answer.copies {
-        let _ = writeln!(text, "  both files hold the same map");
+        let _ = writeln!(text, "  both files hold the same map, which is laid on itself");
     }
     let Some(best) = answer.hypotheses.first() else {
         return text;

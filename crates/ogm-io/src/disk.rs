@@ -114,8 +114,21 @@ pub(crate) fn put_pair_in_place(image: &Temporary, yaml: &Temporary) -> io::Resu
 
 #[cfg(test)]
 mod tests {
-    use super::{Temporary, put_pair_in_place};
+    use super::{Temporary, put_pair_in_place, write_file};
     use std::fs;
+
+    #[test]
+    fn a_file_is_replaced_only_if_asked_and_leaves_nothing_beside_it() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("report.json");
+        write_file(&path, b"old", false).unwrap();
+        assert!(write_file(&path, b"new", false).is_err());
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        write_file(&path, b"new", true).unwrap();
+        assert_eq!(fs::read_to_string(&path).unwrap(), "new");
+        assert!(write_file(folder.path(), b"new", true).is_err(), "a folder is not a file");
+        assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
 
     #[test]
     fn the_old_yaml_returns_if_the_new_image_cannot_take_its_name() {

@@ -1,10 +1,13 @@
 //! The transform between two maps.
 
+use std::fs;
 use std::io::Read;
 use std::process::{Command, Stdio};
 
-use crate::{apart, draw, ends_with, fixtures, json, pose, truth};
+use ogm_core::Se2;
 use tempfile::tempdir;
+
+use crate::{apart, draw, ends_with, fixtures, header, json, pose, truth};
 
 /// A cell of the example maps, and a fiftieth of the turn between them.
 const CLOSE: (f64, f64) = (0.05, 0.5);
@@ -91,7 +94,7 @@ fn three_good_tags_make_auto_the_third_method() {
 fn too_few_tags_leave_auto_with_the_maps_and_refuse_the_method_by_tags() {
     let folder = tempdir().unwrap();
     let log = "tag_id,robot_x_m,robot_y_m,range_m\n1,0.0,0.0,1.0\n";
-    std::fs::write(folder.path().join("few.csv"), log).unwrap();
+    fs::write(folder.path().join("few.csv"), log).unwrap();
     let tags = "--tags {F}/target.yaml={T}/few.csv --tags {F}/source.yaml={T}/few.csv";
     let maps = "align {F}/target.yaml {F}/source.yaml --json";
     let found = json(0, folder.path(), &format!("{maps} {tags}"));
@@ -118,7 +121,7 @@ fn copies_of_one_map_lie_at_identity_and_it_says_so() {
     let folder = tempdir().unwrap();
     for end in ["yaml", "pgm"] {
         let file = format!("target.{end}");
-        std::fs::copy(fixtures().join(&file), folder.path().join(&file)).unwrap();
+        fs::copy(fixtures().join(&file), folder.path().join(&file)).unwrap();
     }
     let (said, _) = ends_with(0, folder.path(), "align {F}/target.yaml {T}/target.yaml");
     assert!(said.contains("both files hold the same map"), "{said}");
@@ -154,7 +157,12 @@ fn a_room_with_four_equal_sides_is_ambiguous() {
     let mut rows = vec![between.as_str(); side];
     (rows[0], rows[side - 1]) = (&wall, &wall);
     draw(folder.path(), "room", &rows.join("\n"));
-    let refused = json(3, folder.path(), "align {T}/room.yaml {T}/room.yaml --json");
+    fs::copy(folder.path().join("room.pgm"), folder.path().join("moved.pgm")).unwrap();
+    header(folder.path(), "moved", "resolution: 0.05\norigin: [1.0, 0.0, 0.0]\nfree_thresh: 0.196");
+    let copies = json(0, folder.path(), "align {T}/room.yaml {T}/room.yaml --json");
+    let (shift, turn) = apart(pose(&copies["target_from_source"]), Se2::identity());
+    assert!(shift < 0.01 && turn < 0.1, "a copy lies on itself: {shift} m, {turn} deg");
+    let refused = json(3, folder.path(), "align {T}/room.yaml {T}/moved.yaml --json");
     assert_eq!(refused["verdict"], "ambiguous");
     assert!(refused["target_from_source"].is_object(), "the best one, although refused");
     assert!(refused["hypotheses"].as_array().unwrap().len() >= 2);
@@ -182,12 +190,12 @@ fn command_lines_that_cannot_be_meant_end_with_2() {
         format!("align {maps} --tags {{F}}/target.tags.csv"),
         format!("align {maps} --tags other.yaml={{F}}/target.tags.csv"),
         format!("merge {maps}"),
-        format!("merge {{F}}/target.yaml -o {{T}}/out.yaml"),
+        "merge {F}/target.yaml -o {T}/out.yaml".to_owned(),
         format!("merge {maps} {{F}}/target.yaml -o {{T}}/out.yaml"),
         format!("merge {maps} -o {{T}}/out.yaml --resolution 0"),
         format!("merge {maps} -o {{T}}/out.yaml --fusion mean"),
         format!("view {maps} -o {{T}}/out.png"),
-        format!("view {{F}}/target.yaml --transform 1,2,3 -o {{T}}/out.png"),
+        "view {F}/target.yaml --transform 1,2,3 -o {T}/out.png".to_owned(),
         "apply {F}/target.yaml -o {T}/out.yaml".to_owned(),
         "info".to_owned(),
     ] {
@@ -195,7 +203,7 @@ fn command_lines_that_cannot_be_meant_end_with_2() {
         assert!(said.is_empty(), "{wrong}: {said}");
         assert!(!complained.is_empty(), "{wrong}");
     }
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     let (_, complained) =
         ends_with(2, folder.path(), "merge {F}/target.yaml {F}/source.yaml c -o {T}/out.yaml");
     assert!(complained.contains("two maps for now, not 3"), "{complained}");

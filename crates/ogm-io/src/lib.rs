@@ -20,7 +20,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`read_map`] and [`write_map`] do the same with files; a map is written atomically.
+//! [`read_map`] and [`write_map`] do the same with files; a map is written atomically, and by
+//! [`write_file`] so is what goes with it.
 
 #![expect(clippy::disallowed_methods, reason = "files are what this crate is for")]
 

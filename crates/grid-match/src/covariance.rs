@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Matrix3, Vector2};
 use ogm_core::Se2;
 
 use crate::prepare::PreparedMap;
-use crate::refine::normal_equations;
+use crate::refine::{Points, normal_equations};
 use crate::report::WeakDirection;
 
 /// Metres of wall over which errors of a map are one error: neighbouring points share beams,
@@ -23,8 +23,8 @@ pub(crate) fn covariance(
     target_local_from_source_local: &Se2,
     scale: f64,
 ) -> (Matrix3<f64>, Option<WeakDirection>) {
-    let most = usize::MAX;
-    let normal = normal_equations(target, source, target_local_from_source_local, scale, most);
+    let points = Points { most: usize::MAX, least_cosine: 0.5 };
+    let normal = normal_equations(target, source, target_local_from_source_local, scale, points);
     let resolution = target.resolution().max(source.resolution());
     let measured = normal.residual / normal.weight.max(1e-9);
     let variance = measured.max((LEAST_SIGMA_CELLS * resolution).powi(2));

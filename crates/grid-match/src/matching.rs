@@ -11,6 +11,7 @@ use crate::covariance::covariance;
 use crate::lattice::floor_index;
 use crate::params::{Effort, MatchParams};
 use crate::prepare::PreparedMap;
+use crate::refine::polish;
 use crate::report::{Hypothesis, MatchReport};
 use crate::score::{Evidence, Reach, evidence};
 use crate::search::{Fit, Search};
@@ -67,6 +68,10 @@ pub fn match_prepared(
         if !found.is_empty() && probability(&found, 0) >= params.accept {
             break;
         }
+    }
+    found.truncate(MOST_HYPOTHESES + 1);
+    for fit in &mut found {
+        fit.first_from_second = polish(first, second, fit.first_from_second);
     }
     let hypotheses: Vec<Hypothesis> = (0..found.len().min(MOST_HYPOTHESES))
         .filter(|&index| found[index].evidence.is_comparable())

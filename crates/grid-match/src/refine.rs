@@ -3,7 +3,12 @@
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 use ogm_core::Se2;
 
-use crate::prepare::{PreparedMap, WallPoint};
+use crate::prepare::{PreparedMap, State, WallPoint};
+
+/// Where the scale of a polish starts, metres.
+const POLISH_SCALE_M: f64 = 0.15;
+/// Steps of a polish.
+const POLISH_STEPS: usize = 12;
 
 /// Normal equations of the symmetric problem, about a centre.
 #[derive(Debug, Clone, Copy)]
@@ -19,23 +24,61 @@ pub(crate) struct Normal {
     pub(crate) centre: Point2<f64>,
 }
 
+/// Which wall points a refinement uses.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Points {
+    /// At most so many of each map.
+    pub(crate) most: usize,
+    /// Only those whose normals in both maps have more than this cosine between them: the two
+    /// faces of one wall are not one place.
+    pub(crate) least_cosine: f64,
+}
+
+impl PreparedMap {
+    /// Whether wall at `at` says something about this map: it lies in its free space, where no wall
+    /// may be, or the free space around lies to the side of `normal`.
+    #[inline]
+    fn speaks_of(&self, at: Point2<f64>, normal: Vector2<f64>, least_cosine: f64) -> bool {
+        if least_cosine <= -1.0 {
+            return true;
+        }
+        let Some(cell) = self.lattice.index(at) else { return false };
+        self.state[cell] == State::Free
+            || self.lattice.direction(&self.openness, cell).dot(&normal) >= least_cosine
+    }
+}
+
 /// Follows the walls of both maps from `first_from_second`, one Gauss–Newton step for each of
-/// `scales` (metres at which a distance has lost three quarters of its weight), on at most `most`
-/// points of each map.
+/// `scales` (metres at which a distance has lost three quarters of its weight), on `points`.
 pub(crate) fn refine(
     first: &PreparedMap,
     second: &PreparedMap,
     first_from_second: Se2,
     scales: &[f64],
-    most: usize,
+    points: Points,
 ) -> Se2 {
     let mut first_from_second = first_from_second;
     for &scale in scales {
-        let normal = normal_equations(first, second, &first_from_second, scale, most);
-        let Some(step) = normal.step() else { return first_from_second };
-        let limit = (2.0 * scale / step.xy().norm()).min(0.1 / step.z.abs()).min(1.0);
-        let step = step * limit;
-        first_from_second = Se2::about(normal.centre, step.z, step.xy()) * first_from_second;
+        let normal = normal_equations(first, second, &first_from_second, scale, points);
+        let Some(moved_from_first) = normal.motion(scale) else { break };
+        first_from_second = moved_from_first * first_from_second;
+    }
+    first_from_second
+}
+
+/// [`refine`] at scales that follow the residuals, so that what fits well is held to it: walls
+/// beyond twice the typical residual lose their say.
+pub(crate) fn polish(first: &PreparedMap, second: &PreparedMap, start_first_from_second: Se2) -> Se2 {
+    let resolution = first.resolution().max(second.resolution());
+    let points = Points { most: usize::MAX, least_cosine: 0.5 };
+    let mut first_from_second = start_first_from_second;
+    let mut scale = POLISH_SCALE_M.max(resolution);
+    for _ in 0..POLISH_STEPS {
+        let normal = normal_equations(first, second, &first_from_second, scale, points);
+        let Some(moved_from_first) = normal.motion(scale) else { break };
+        first_from_second = moved_from_first * first_from_second;
+        let typical = (normal.residual / normal.weight.max(1e-9)).sqrt();
+        scale = scale.min((2.0 * typical).max(0.4 * resolution));
     }
     first_from_second
 }
@@ -47,19 +90,24 @@ pub(crate) fn normal_equations(
     second: &PreparedMap,
     first_from_second: &Se2,
     scale: f64,
-    most: usize,
+    points: Points,
 ) -> Normal {
     let centre = *first_from_second * second.centre;
     let mut sums = Sums { scale_sq: scale * scale, ..Sums::default() };
-    for &WallPoint { at, .. } in second.walls.iter().take(most) {
+    for &WallPoint { at, normal } in second.walls.iter().take(points.most) {
         let in_first = *first_from_second * at;
-        if let Some(slope) = first.lattice.slope(&first.distance, in_first) {
+        if let Some(slope) = first.lattice.slope(&first.distance, in_first)
+            && first.speaks_of(in_first, *first_from_second * normal, points.least_cosine)
+        {
             sums.add(slope.value, slope.gradient, in_first - centre);
         }
     }
     let second_from_first = first_from_second.inverse();
-    for &WallPoint { at, .. } in first.walls.iter().take(most) {
-        if let Some(slope) = second.lattice.slope(&second.distance, second_from_first * at) {
+    for &WallPoint { at, normal } in first.walls.iter().take(points.most) {
+        let in_second = second_from_first * at;
+        if let Some(slope) = second.lattice.slope(&second.distance, in_second)
+            && second.speaks_of(in_second, second_from_first * normal, points.least_cosine)
+        {
             sums.add(slope.value, -(*first_from_second * slope.gradient), at - centre);
         }
     }
@@ -67,6 +115,14 @@ pub(crate) fn normal_equations(
 }
 
 impl Normal {
+    /// The step as a motion of the first frame, no longer than twice `scale`.
+    fn motion(&self, scale: f64) -> Option<Se2> {
+        let step = self.step()?;
+        let limit = (2.0 * scale / step.xy().norm()).min(0.1 / step.z.abs()).min(1.0);
+        let step = step * limit;
+        Some(Se2::about(self.centre, step.z, step.xy()))
+    }
+
     /// Lightly damped, so that a direction without information stays where it is.
     fn step(&self) -> Option<Vector3<f64>> {
         let mut damped = self.information;

@@ -5,7 +5,7 @@ use ogm_core::Se2;
 use crate::bounds::Bounds;
 use crate::params::Effort;
 use crate::prepare::PreparedMap;
-use crate::refine::refine;
+use crate::refine::{Points, refine};
 use crate::rotation;
 use crate::score::{Evidence, Reach, evidence, quick_score};
 use crate::translation::{Candidate, CoarsePair, distinct};
@@ -111,6 +111,7 @@ impl<'a> Search<'a> {
         let ratio = self.coarse.cell / 0.2;
         let scales = COARSE_SCALES.map(|scale| scale * ratio);
         let reach = self.reach();
+        let points = Points { most: COARSE_POINTS, least_cosine: -1.0 };
         let mut settled = Vec::with_capacity(candidates.len());
         for candidate in candidates {
             if !self.work.spend_points(2 * COARSE_POINTS * (scales.len() + 1)) {
@@ -119,7 +120,7 @@ impl<'a> Search<'a> {
             let (first, second) = (self.first, self.second);
             let start_first_from_second = candidate.first_from_second;
             let first_from_second =
-                refine(first, second, start_first_from_second, &scales, COARSE_POINTS);
+                refine(first, second, start_first_from_second, &scales, points);
             let score = quick_score(first, second, &first_from_second, reach, COARSE_POINTS);
             settled.push(Candidate { first_from_second, score });
         }
@@ -132,6 +133,7 @@ impl<'a> Search<'a> {
         let scales = FINE_SCALES.map(|scale| scale.max(self.resolution()));
         let points =
             self.first.walls.len().min(FINE_POINTS) + self.second.walls.len().min(FINE_POINTS);
+        let used = Points { most: FINE_POINTS, least_cosine: 0.0 };
         for candidate in promising {
             if !self.work.spend_points(points * (scales.len() + 1)) {
                 break;
@@ -139,7 +141,7 @@ impl<'a> Search<'a> {
             let (first, second) = (self.first, self.second);
             let start_first_from_second = candidate.first_from_second;
             let first_from_second =
-                refine(first, second, start_first_from_second, &scales, FINE_POINTS);
+                refine(first, second, start_first_from_second, &scales, used);
             if self.bounds.is_some_and(|bounds| !bounds.contains(&first_from_second)) {
                 continue;
             }

@@ -9,14 +9,8 @@ use crate::translation::same_place;
 const MODE_M: f64 = 0.75;
 /// Poses turned further apart than this are different answers, radians.
 const MODE_RAD: f64 = 0.1;
-/// Score of a pose that explains as much as no pose does.
-pub(crate) const FLOOR: f64 = -4.0;
-/// Lead beyond which more says nothing.
-const MOST_LEAD: f64 = 6.0;
-/// Logistic regression of being right on the lead, fitted on simulated pairs.
-const SLOPE: f64 = 1.18;
-/// See [`SLOPE`].
-const OFFSET: f64 = -0.79;
+/// Score of no pose at all.
+pub(crate) const FLOOR: f64 = 0.0;
 
 /// The best fit of every mode, best first.
 pub(crate) fn modes(mut fits: Vec<Fit>, centre: Point2<f64>) -> Vec<Fit> {
@@ -36,11 +30,10 @@ pub(crate) fn modes(mut fits: Vec<Fit>, centre: Point2<f64>) -> Vec<Fit> {
     modes
 }
 
-/// Probability that the mode at `index` is right: a logistic function of its lead over the best of
-/// the others, or over no pose at all.
+/// Probability that the mode at `index` is the right one of all modes and of no pose at all.
 pub(crate) fn probability(modes: &[Fit], index: usize) -> f64 {
-    let others = modes.iter().enumerate().filter(|&(other, _)| other != index);
-    let rival = others.map(|(_, mode)| mode.score).fold(FLOOR, f64::max);
-    let lead = (modes[index].score - rival).min(MOST_LEAD);
-    1.0 / (1.0 + (-(SLOPE * lead + OFFSET)).exp())
+    let highest = modes.iter().map(|mode| mode.score).fold(FLOOR, f64::max);
+    let weight = |score: f64| (score - highest).exp();
+    let total: f64 = modes.iter().map(|mode| weight(mode.score)).sum();
+    weight(modes[index].score) / (total + weight(FLOOR))
 }

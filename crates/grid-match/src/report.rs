@@ -25,8 +25,8 @@ pub struct MatchReport {
 pub struct Hypothesis {
     /// Maps source points into the target map.
     pub target_from_source: Se2,
-    /// Probability that it is right, by its lead over the next best pose; calibrated for the best
-    /// hypothesis.
+    /// Probability that it is right, against every other pose that was found and against none
+    /// being right.
     pub probability: f64,
     /// [`Evidence::score`].
     pub score: f64,

@@ -193,3 +193,25 @@ impl Axes {
         Complex32::new(along(self.real), along(self.imaginary))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Axes, Side, WEIGHTS};
+    use proptest::prelude::{prop_assert, proptest};
+
+    proptest! {
+        #[test]
+        fn packed_numbers_multiply_to_the_weighted_sum(
+            wall_a in 0.0_f32..1.0, free_a in 0.0_f32..1.0,
+            wall_b in 0.0_f32..1.0, free_b in 0.0_f32..1.0,
+        ) {
+            let first = Axes::new(&WEIGHTS, Side::First).pack(wall_a, free_a);
+            let second = Axes::new(&WEIGHTS, Side::Second).pack(wall_b, free_b);
+            let [a, b, c, d] = [wall_a, free_a, wall_b, free_b].map(f64::from);
+            let expected = WEIGHTS.walls * a * c - WEIGHTS.conflict * (a * d + b * c)
+                + WEIGHTS.free * b * d;
+            let found = f64::from((first * second.conj()).re);
+            prop_assert!((found - expected).abs() < 1e-5, "{found} instead of {expected}");
+        }
+    }
+}

@@ -148,3 +148,62 @@ fn transpose(input: &[Complex32], output: &mut [Complex32], width: usize) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{Correlator, transpose};
+    use crate::channels::Channels;
+    use nalgebra::Vector2;
+    use proptest::prelude::{Strategy, prop, prop_assert, proptest};
+    use rustfft::num_complex::Complex32;
+
+    fn channels() -> impl Strategy<Value = Channels> {
+        let part = -1.0_f32..1.0;
+        (1_usize..9, 1_usize..7, prop::collection::vec((part.clone(), part), 8 * 6)).prop_map(
+            |(width, height, parts)| {
+                let numbers = parts.into_iter().map(|(re, im)| Complex32::new(re, im));
+                let packed = numbers.take(width * height).collect();
+                Channels { width, height, origin: Vector2::zeros(), packed }
+            },
+        )
+    }
+
+    fn at(map: &Channels, column: usize, row: usize) -> Complex32 {
+        let inside = column < map.width && row < map.height;
+        if inside { map.packed[row * map.width + column] } else { Complex32::default() }
+    }
+
+    proptest! {
+        #[test]
+        fn every_shift_scores_what_the_sum_over_its_cells_does(
+            first in channels(), second in channels(),
+        ) {
+            let mut correlator = Correlator::new(&first, [second.width, second.height], 0);
+            let surface = correlator.correlate(&second);
+            let (columns, rows) = (surface.columns, surface.rows);
+            let scale = 1.0 / (columns * rows) as f32;
+            for row in 0..rows {
+                for column in 0..columns {
+                    let mut sum = Complex32::default();
+                    for y in 0..second.height {
+                        for x in 0..second.width {
+                            let there = at(&first, (x + column) % columns, (y + row) % rows);
+                            sum += there * at(&second, x, y).conj();
+                        }
+                    }
+                    let found = surface.score(column, row) * scale;
+                    prop_assert!((found - sum.re).abs() < 1e-4, "{found} instead of {}", sum.re);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_transpose_puts_rows_into_columns() {
+        let numbers: Vec<Complex32> = (0..6_u8).map(|n| Complex32::from(f32::from(n))).collect();
+        let mut turned = vec![Complex32::default(); 6];
+        transpose(&numbers, &mut turned, 3);
+        let real: Vec<f32> = turned.iter().map(|number| number.re).collect();
+        assert_eq!(real, [0.0, 3.0, 1.0, 4.0, 2.0, 5.0]);
+    }
+}

@@ -68,7 +68,11 @@ pub(crate) fn refine(
 
 /// [`refine`] at scales that follow the residuals, so that what fits well is held to it: walls
 /// beyond twice the typical residual lose their say.
-pub(crate) fn polish(first: &PreparedMap, second: &PreparedMap, start_first_from_second: Se2) -> Se2 {
+pub(crate) fn polish(
+    first: &PreparedMap,
+    second: &PreparedMap,
+    start_first_from_second: Se2,
+) -> Se2 {
     let resolution = first.resolution().max(second.resolution());
     let points = Points { most: usize::MAX, least_cosine: 0.5 };
     let mut first_from_second = start_first_from_second;

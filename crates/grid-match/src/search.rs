@@ -119,8 +119,7 @@ impl<'a> Search<'a> {
             }
             let (first, second) = (self.first, self.second);
             let start_first_from_second = candidate.first_from_second;
-            let first_from_second =
-                refine(first, second, start_first_from_second, &scales, points);
+            let first_from_second = refine(first, second, start_first_from_second, &scales, points);
             let score = quick_score(first, second, &first_from_second, reach, COARSE_POINTS);
             settled.push(Candidate { first_from_second, score });
         }
@@ -140,8 +139,7 @@ impl<'a> Search<'a> {
             }
             let (first, second) = (self.first, self.second);
             let start_first_from_second = candidate.first_from_second;
-            let first_from_second =
-                refine(first, second, start_first_from_second, &scales, used);
+            let first_from_second = refine(first, second, start_first_from_second, &scales, used);
             if self.bounds.is_some_and(|bounds| !bounds.contains(&first_from_second)) {
                 continue;
             }

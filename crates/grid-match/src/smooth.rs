@@ -49,3 +49,21 @@ fn half_kernel(sigma: f64) -> Vec<f32> {
     let total = (1..=radius).map(|offset| 2.0 * weight(offset)).sum::<f64>() + 1.0;
     (0..=radius).map(|offset| (weight(offset) / total) as f32).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::smooth_rows_and_columns;
+
+    #[test]
+    fn a_single_cell_spreads_evenly_and_keeps_its_sum() {
+        let mut field = vec![0.0; 21 * 17];
+        field[8 * 21 + 10] = 1.0;
+        let smooth = smooth_rows_and_columns(field, 21, 1.5);
+        assert!((smooth.iter().sum::<f32>() - 1.0).abs() < 1e-5);
+        let at = |column: usize, row: usize| smooth[row * 21 + column];
+        assert!(at(10, 8) > at(11, 8) && at(11, 8) > at(12, 8) && at(12, 8) > 0.0);
+        for (a, b) in [((7, 8), (13, 8)), ((10, 5), (10, 11)), ((7, 8), (10, 5))] {
+            assert!((at(a.0, a.1) - at(b.0, b.1)).abs() < 1e-7);
+        }
+    }
+}

@@ -82,3 +82,59 @@ pub(crate) fn circular_correlation(target: &[f64], source: &[f64]) -> Vec<f64> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{ANGLES, circular_correlation, hough_spectrum};
+    use crate::prepare::WallPoint;
+    use crate::rotation::by_spectrum;
+    use nalgebra::{Point2, Rotation2, Vector2};
+    use ogm_core::wrap_angle;
+    use proptest::prelude::{prop_assert, proptest};
+    use std::f64::consts::PI;
+
+    /// Walls of lengths that no quarter turn exchanges.
+    fn walls(turn: f64, shift: Vector2<f64>) -> Vec<WallPoint> {
+        let line = |x: f64, y: f64, along: f64, length: f64| {
+            let step = Vector2::new(along.cos(), along.sin()) * 0.1;
+            let mut at = Point2::new(x, y);
+            let mut points = Vec::new();
+            for _ in 0..crate::lattice::floor_index(length / 0.1) {
+                points.push(at);
+                at += step;
+            }
+            points
+        };
+        let lines = [
+            line(0.0, 0.0, 0.0, 12.0),
+            line(0.0, 5.0, 0.0, 8.0),
+            line(2.0, 0.0, PI / 2.0, 5.0),
+            line(1.0, 1.0, 0.6, 5.0),
+        ];
+        let turn = Rotation2::new(turn);
+        let normal = Vector2::zeros();
+        lines.concat().into_iter().map(|at| WallPoint { at: turn * at + shift, normal }).collect()
+    }
+
+    proptest! {
+        #[test]
+        fn the_rotation_between_two_sets_of_walls_is_the_best_peak(
+            turn in -PI..PI, x in -50.0_f64..50.0, y in -50.0_f64..50.0,
+        ) {
+            let target = hough_spectrum(&walls(turn, Vector2::new(x, y)), 0.1);
+            let source = hough_spectrum(&walls(0.0, Vector2::zeros()), 0.1);
+            let best = by_spectrum(&target, &source, 4);
+            let error = |found: f64| wrap_angle(found - turn).abs();
+            prop_assert!(error(best[0]).min(error(best[1])) < 0.2_f64.to_radians(), "{best:?}");
+        }
+    }
+
+    #[test]
+    fn a_spectrum_correlates_fully_with_itself_and_nothing_with_nothing() {
+        let spectrum = hough_spectrum(&walls(0.3, Vector2::zeros()), 0.1);
+        assert!((circular_correlation(&spectrum, &spectrum)[0] - 1.0).abs() < 1e-9);
+        let nothing = hough_spectrum(&[], 0.1);
+        assert_eq!(circular_correlation(&nothing, &spectrum), vec![0.0; ANGLES]);
+        assert!(by_spectrum(&nothing, &spectrum, 4).is_empty());
+    }
+}

@@ -26,7 +26,6 @@ pub(crate) struct Candidate {
 
 /// Two maps on one coarse lattice.
 pub(crate) struct CoarsePair<'a> {
-    first: &'a PreparedMap,
     second: &'a PreparedMap,
     /// Metres a coarse cell.
     pub(crate) cell: f64,
@@ -35,12 +34,12 @@ pub(crate) struct CoarsePair<'a> {
 }
 
 impl<'a> CoarsePair<'a> {
-    pub(crate) fn new(first: &'a PreparedMap, second: &'a PreparedMap) -> Self {
+    pub(crate) fn new(first: &PreparedMap, second: &'a PreparedMap) -> Self {
         let cell = coarse_cell(first, second);
         let first_free = FreeShare::of(first, cell);
         let first_channels = Channels::turned(first, &first_free, 0.0, Side::First);
         let second_free = FreeShare::of(second, cell);
-        Self { first, second, cell, first_channels, second_free }
+        Self { second, cell, first_channels, second_free }
     }
 
     /// The best `most` poses over `rotations`, best first, no two within a cell and a half and

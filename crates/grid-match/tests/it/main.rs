@@ -1,0 +1,8 @@
+//! What a user of the matcher would notice.
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod bounds;
+mod metamorphic;
+mod refusals;
+mod simulated;
+mod world;

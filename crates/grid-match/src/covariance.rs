@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Matrix3, Vector2};
 use ogm_core::Se2;
 
 use crate::prepare::PreparedMap;
-use crate::refine::{Points, normal_equations};
+use crate::refine::{Points, Sides, normal_equations};
 use crate::report::WeakDirection;
 
 /// Metres of wall over which errors of a map are one error: neighbouring points share beams,
@@ -23,7 +23,7 @@ pub(crate) fn covariance(
     target_local_from_source_local: &Se2,
     scale: f64,
 ) -> (Matrix3<f64>, Option<WeakDirection>) {
-    let points = Points { most: usize::MAX, least_cosine: 0.5 };
+    let points = Points { most: usize::MAX, sides: Sides::Facing };
     let normal = normal_equations(target, source, target_local_from_source_local, scale, points);
     let resolution = target.resolution().max(source.resolution());
     let measured = normal.residual / normal.weight.max(1e-9);

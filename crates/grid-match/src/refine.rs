@@ -3,6 +3,7 @@
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 use ogm_core::Se2;
 
+use crate::lattice::Slope;
 use crate::prepare::{PreparedMap, State, WallPoint};
 
 /// Where the scale of a polish starts, metres.
@@ -29,22 +30,44 @@ pub(crate) struct Normal {
 pub(crate) struct Points {
     /// At most so many of each map.
     pub(crate) most: usize,
-    /// Only those whose normals in both maps have more than this cosine between them: the two
-    /// faces of one wall are not one place.
-    pub(crate) least_cosine: f64,
+    /// By the sides from which both maps saw the wall.
+    pub(crate) sides: Sides,
 }
 
-impl PreparedMap {
-    /// Whether wall at `at` says something about this map: it lies in its free space, where no wall
-    /// may be, or the free space around lies to the side of `normal`.
+/// The two faces of one wall are not one place, so walls seen from opposite sides should not
+/// attract. Wall in the free space of the other map counts always, for there it cannot be.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Sides {
+    /// All walls, for a pose too rough to compare sides.
+    Any,
+    /// Not walls seen from opposite sides.
+    NotOpposite,
+    /// Walls that face the same way within 60°, and only across: where a wall ends is where a
+    /// robot stopped looking.
+    Facing,
+}
+
+impl Sides {
+    fn least_cosine(self) -> f64 {
+        if self == Self::Facing { 0.5 } else { 0.0 }
+    }
+
+    /// How far wall of another map, at `at` with `normal`, is from the walls of `map`.
     #[inline]
-    fn speaks_of(&self, at: Point2<f64>, normal: Vector2<f64>, least_cosine: f64) -> bool {
-        if least_cosine <= -1.0 {
-            return true;
+    fn pull(self, map: &PreparedMap, at: Point2<f64>, normal: Vector2<f64>) -> Option<Slope> {
+        let slope = map.lattice.slope(&map.distance, at)?;
+        if self == Self::Any {
+            return Some(slope);
         }
-        let Some(cell) = self.lattice.index(at) else { return false };
-        self.state[cell] == State::Free
-            || self.lattice.direction(&self.openness, cell).dot(&normal) >= least_cosine
+        let cell = map.lattice.index(at)?;
+        let counts = map.state[cell] == State::Free
+            || map.lattice.direction(&map.openness, cell).dot(&normal) >= self.least_cosine();
+        let across = if self == Self::Facing && normal != Vector2::zeros() {
+            normal * normal.dot(&slope.gradient)
+        } else {
+            slope.gradient
+        };
+        counts.then_some(Slope { gradient: across, ..slope })
     }
 }
 
@@ -74,7 +97,7 @@ pub(crate) fn polish(
     start_first_from_second: Se2,
 ) -> Se2 {
     let resolution = first.resolution().max(second.resolution());
-    let points = Points { most: usize::MAX, least_cosine: 0.5 };
+    let points = Points { most: usize::MAX, sides: Sides::Facing };
     let mut first_from_second = start_first_from_second;
     let mut scale = POLISH_SCALE_M.max(resolution);
     for _ in 0..POLISH_STEPS {
@@ -100,18 +123,14 @@ pub(crate) fn normal_equations(
     let mut sums = Sums { scale_sq: scale * scale, ..Sums::default() };
     for &WallPoint { at, normal } in second.walls.iter().take(points.most) {
         let in_first = *first_from_second * at;
-        if let Some(slope) = first.lattice.slope(&first.distance, in_first)
-            && first.speaks_of(in_first, *first_from_second * normal, points.least_cosine)
-        {
+        if let Some(slope) = points.sides.pull(first, in_first, *first_from_second * normal) {
             sums.add(slope.value, slope.gradient, in_first - centre);
         }
     }
     let second_from_first = first_from_second.inverse();
     for &WallPoint { at, normal } in first.walls.iter().take(points.most) {
         let in_second = second_from_first * at;
-        if let Some(slope) = second.lattice.slope(&second.distance, in_second)
-            && second.speaks_of(in_second, second_from_first * normal, points.least_cosine)
-        {
+        if let Some(slope) = points.sides.pull(second, in_second, second_from_first * normal) {
             sums.add(slope.value, -(*first_from_second * slope.gradient), at - centre);
         }
     }

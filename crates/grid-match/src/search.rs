@@ -5,7 +5,7 @@ use ogm_core::Se2;
 use crate::bounds::Bounds;
 use crate::params::Effort;
 use crate::prepare::PreparedMap;
-use crate::refine::{Points, refine};
+use crate::refine::{Points, Sides, refine};
 use crate::rotation;
 use crate::score::{Evidence, Reach, evidence, quick_score};
 use crate::translation::{Candidate, CoarsePair, distinct};
@@ -111,7 +111,7 @@ impl<'a> Search<'a> {
         let ratio = self.coarse.cell / 0.2;
         let scales = COARSE_SCALES.map(|scale| scale * ratio);
         let reach = self.reach();
-        let points = Points { most: COARSE_POINTS, least_cosine: -1.0 };
+        let points = Points { most: COARSE_POINTS, sides: Sides::Any };
         let mut settled = Vec::with_capacity(candidates.len());
         for candidate in candidates {
             if !self.work.spend_points(2 * COARSE_POINTS * (scales.len() + 1)) {
@@ -132,7 +132,7 @@ impl<'a> Search<'a> {
         let scales = FINE_SCALES.map(|scale| scale.max(self.resolution()));
         let points =
             self.first.walls.len().min(FINE_POINTS) + self.second.walls.len().min(FINE_POINTS);
-        let used = Points { most: FINE_POINTS, least_cosine: 0.0 };
+        let used = Points { most: FINE_POINTS, sides: Sides::NotOpposite };
         for candidate in promising {
             if !self.work.spend_points(points * (scales.len() + 1)) {
                 break;

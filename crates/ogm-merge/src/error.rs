@@ -21,4 +21,7 @@ pub enum MergeError {
     /// The fusion.
     #[error(transparent)]
     Fusion(#[from] grid_merge::MergeError),
+    /// The search for a transform.
+    #[error(transparent)]
+    Matching(#[from] grid_match::MatchError),
 }

@@ -5,6 +5,7 @@
 //! between two maps or refuses with a reason, and its [`MergeReport`] says what each stage saw;
 //! [`merge`] also fuses the cells. [`align_carpin`] is that of Carpin and Birk, *Stochastic map
 //! merging in rescue environments*: no tags, but a rough start.
+//! [`merge`] also fuses the cells. [`merge_matched`] needs no tags.
 //!
 //! ```
 //! use ogm_merge::{MergeParams, Method, RobotMap, merge};
@@ -30,6 +31,7 @@
 mod align;
 mod carpin;
 mod error;
+mod matched;
 mod params;
 mod recipes;
 mod report;
@@ -39,6 +41,7 @@ mod verify;
 pub use align::{Method, RobotMap, align, merge};
 pub use carpin::{CarpinParams, CarpinReport, align_carpin};
 pub use error::MergeError;
+pub use matched::merge_matched;
 pub use params::{Anchor, MergeParams, RfidParams};
 pub use report::{Evidence, MergeReport, WallAgreement, WallDirection, Warning};
 

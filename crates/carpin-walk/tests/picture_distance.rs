@@ -1,4 +1,5 @@
 //! ψ: the paper's examples, its traps, and a slow second opinion.
+#![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use carpin_walk::{DistanceParams, MapDistance, Objective, psi};
 use ogm_core::{

@@ -159,5 +159,5 @@ fn coarse_cell(first: &PreparedMap, second: &PreparedMap) -> f64 {
     let smallest = extents.iter().map(|extent| extent.min()).fold(f64::INFINITY, f64::min);
     let largest = extents.iter().map(|extent| extent.max()).fold(0.0, f64::max);
     let resolution = first.resolution().max(second.resolution());
-    (smallest / 60.0).max(0.06).min(0.2).max(1.5 * resolution).max(largest / 450.0)
+    (smallest / 60.0).clamp(0.06, 0.2).max(1.5 * resolution).max(largest / 450.0)
 }

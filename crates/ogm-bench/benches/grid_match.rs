@@ -1,5 +1,5 @@
 //! What it costs to match two maps, and to refuse to.
-#![expect(clippy::unwrap_used, missing_docs, reason = "a benchmark fails by panicking")]
+#![expect(clippy::unwrap_used, reason = "a benchmark fails by panicking")]
 
 use criterion::{Criterion, criterion_group, criterion_main};
 use grid_match::{MatchParams, PreparedMap, match_maps, match_prepared};

@@ -4,11 +4,12 @@ use carpin_walk::{
     Budget, Drift, Params, Placement, RandomWalk, SearchBox, Walk, align, random_walk,
 };
 use ogm_sim::FloorPlan;
+use ogm_view::{enlarge, overlay, png, side_by_side};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::Args;
 use super::random_walk_cases::{CASES, Coverage, RescuePair};
-use crate::draw::{Chart, Mark, Series, chart, enlarge, overlay, png, side_by_side};
+use crate::draw::{Chart, Mark, Series, chart};
 use crate::report::{Figure, Image};
 
 /// Walks behind a curve of Theorem 1, and their samples.

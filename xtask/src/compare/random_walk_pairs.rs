@@ -6,6 +6,7 @@ use carpin_walk::{Around, DistanceParams, Objective, Params};
 use nalgebra::Vector2;
 use ogm_core::{ClassThresholds, OccupancyGrid, Outcome, Se2};
 use ogm_merge::{CarpinParams, align_carpin};
+use ogm_view::{overlay, png, side_by_side};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
@@ -16,7 +17,6 @@ use super::random_walk::OVERLAP;
 use super::random_walk_tables::share_of;
 use super::record::{Run, RunResult, TransformError, pose_error};
 use super::{Args, progress};
-use crate::draw::{overlay, png, side_by_side};
 use crate::report::{Figure, Image, Table};
 
 /// Largest error of a start along x and y, metres, and of its turn, degrees.

@@ -10,6 +10,10 @@ pub(crate) struct Lattice {
     pub(crate) resolution: f64,
 }
 
+/// Differences across two cells below this are no direction: a wall seen from one side alone gives
+/// about 0.5, one seen from both sides gives noise.
+const FLAT: f64 = 0.1;
+
 /// A value between cell centres and how it changes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Slope {
@@ -70,7 +74,7 @@ impl Lattice {
             difference(index - self.width, index + self.width),
         );
         let steepness = ascent.norm();
-        if steepness > 1e-3 { ascent / steepness } else { Vector2::zeros() }
+        if steepness > FLAT { ascent / steepness } else { Vector2::zeros() }
     }
 }
 

@@ -43,7 +43,7 @@ pub(crate) enum Sides {
     /// Not walls seen from opposite sides.
     NotOpposite,
     /// Walls that face the same way within 60°, and only across: where a wall ends is where a
-    /// robot stopped looking.
+    /// robot stopped looking. Walls that both maps saw from both sides count too.
     Facing,
 }
 
@@ -60,8 +60,11 @@ impl Sides {
             return Some(slope);
         }
         let cell = map.lattice.index(at)?;
+        let side = map.lattice.direction(&map.openness, cell);
+        let both_sides = [side, normal].map(|side| side == Vector2::zeros());
         let counts = map.state[cell] == State::Free
-            || map.lattice.direction(&map.openness, cell).dot(&normal) >= self.least_cosine();
+            || both_sides == [true, true]
+            || side.dot(&normal) >= self.least_cosine();
         let across = if self == Self::Facing && normal != Vector2::zeros() {
             normal * normal.dot(&slope.gradient)
         } else {

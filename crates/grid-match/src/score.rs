@@ -1,6 +1,6 @@
 //! How well two maps fit under a pose, in metres of wall.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix2, Rotation2, Vector2};
 use ogm_core::Se2;
 
 use crate::prepare::{PreparedMap, State};
@@ -112,7 +112,9 @@ pub(crate) fn evidence(
         free += u32::from(first.state[cell] == State::Free && sample.free);
     }
     let smaller = first.known_area().min(second.known_area());
-    let spread = (forth.spread + back.spread) * 0.5;
+    // The normals of the second tally are in the frame of the second map.
+    let turn = Rotation2::new(first_from_second.theta()).into_inner();
+    let spread = (forth.spread + turn * back.spread * turn.transpose()) * 0.5;
     let mean = |value: fn(&Tally) -> f64| 0.5 * (value(&forth) + value(&back));
     Evidence {
         hit_m: mean(|tally| tally.hit),

@@ -24,4 +24,7 @@ pub enum MergeError {
     /// The search for a transform.
     #[error(transparent)]
     Matching(#[from] grid_match::MatchError),
+    /// The maps or parameters of the segment and Radon method.
+    #[error(transparent)]
+    Radon(#[from] radon_merge::RadonError),
 }

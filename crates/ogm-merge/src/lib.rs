@@ -7,6 +7,9 @@
 //! merging in rescue environments*: no tags, but a rough start.
 //! [`merge`] also fuses the cells. [`merge_matched`] needs no tags.
 //!
+//! Without tags, [`align_by_radon`] and [`merge_by_radon`] follow Saeedi et al., *Multiple robot
+//! simultaneous localization and mapping*.
+//!
 //! ```
 //! use ogm_merge::{MergeParams, Method, RobotMap, merge};
 //! use ogm_sim::{FloorPlan, LidarParams, PairParams, simulate_pair};
@@ -33,6 +36,7 @@ mod carpin;
 mod error;
 mod matched;
 mod params;
+mod radon;
 mod recipes;
 mod report;
 mod stop;
@@ -43,6 +47,7 @@ pub use carpin::{CarpinParams, CarpinReport, align_carpin};
 pub use error::MergeError;
 pub use matched::merge_matched;
 pub use params::{Anchor, MergeParams, RfidParams};
+pub use radon::{TeamMerge, align_by_radon, merge_by_radon};
 pub use report::{Evidence, MergeReport, WallAgreement, WallDirection, Warning};
 
 #[cfg(doctest)]

@@ -47,14 +47,17 @@ pub(crate) enum ExperimentId {
     X4,
     /// Stochastic merging on simulated rescue maps (Carpin and Birk); only on request.
     X5,
+    /// Wall segments and the Radon transform; runs only when asked for.
+    X6,
 }
 
 impl Args {
     /// The experiments that this command line asks for.
     pub(crate) fn experiments(&self) -> Vec<ExperimentId> {
         if self.only.is_empty() {
-            let all = ExperimentId::value_variants().iter().copied();
-            all.filter(|&id| self.all || id != ExperimentId::X5).collect()
+            let on_request = [ExperimentId::X5, ExperimentId::X6];
+            let every = ExperimentId::value_variants().iter().copied();
+            every.filter(|id| self.all || !on_request.contains(id)).collect()
         } else {
             self.only.clone()
         }

@@ -20,7 +20,11 @@ mod random_walk_figures;
 mod random_walk_pairs;
 mod random_walk_tables;
 mod record;
+mod segment_figures;
+mod segment_merge;
+mod segment_search;
 mod splice;
+mod team_world;
 mod wall_direction;
 mod worked_tables;
 mod worlds;
@@ -68,11 +72,15 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Verdict> {
             ExperimentId::X3 => wall_direction::run(args)?,
             ExperimentId::X4 => methods::run(args)?,
             ExperimentId::X5 => random_walk::run(args)?,
+            ExperimentId::X6 => segment_merge::run(args)?,
         };
         all.extend(measured);
     }
     if let Some(folder) = &args.pairs {
         all.extend(pairs::run(args, folder)?);
+        if args.experiments().contains(&ExperimentId::X6) {
+            all.extend(segment_search::run_pairs(args, folder)?);
+        }
     }
     output::write(args, &all)
 }

@@ -1,0 +1,60 @@
+//! Maps without tags, by wall segments and the Radon transform (Saeedi et al.).
+
+use grid_merge::{Merged, PlacedMap};
+use ogm_core::{OccupancyGrid, Outcome, Se2};
+use radon_merge::{RadonMatch, RadonParams, find_transform};
+
+use crate::MergeError;
+use crate::align::at_resolution;
+
+/// A team's maps in the frame of the first.
+#[derive(Debug, Clone)]
+pub struct TeamMerge {
+    /// How each of the other maps was aligned to the first.
+    pub matches: Vec<RadonMatch>,
+    /// The first map with all others that could be aligned.
+    pub merged: Merged,
+}
+
+/// Finds the transform that maps points of `source` into the frame of `target`, without tags and
+/// without a start.
+///
+/// Maps of different resolution are both brought to the coarser one for this.
+///
+/// # Errors
+/// Input that cannot be meant; maps that do not match are a refused outcome.
+pub fn align_by_radon(
+    target: &OccupancyGrid,
+    source: &OccupancyGrid,
+    params: &RadonParams,
+) -> Result<RadonMatch, MergeError> {
+    let resolution = target.frame().resolution().max(source.frame().resolution());
+    let target = at_resolution(target, resolution, &params.thresholds)?;
+    let source = at_resolution(source, resolution, &params.thresholds)?;
+    Ok(find_transform(&target, &source, params)?)
+}
+
+/// Aligns every map of `others` to `first` and fuses them in its frame, as the paper does with
+/// three: second to first, third to first, then all.
+///
+/// A map that was refused stays out; its match says why.
+///
+/// # Errors
+/// Input that cannot be meant.
+pub fn merge_by_radon(
+    first: &OccupancyGrid,
+    others: &[&OccupancyGrid],
+    params: &RadonParams,
+    fusion: &grid_merge::MergeParams,
+) -> Result<TeamMerge, MergeError> {
+    let mut matches = Vec::with_capacity(others.len());
+    let mut placed = vec![PlacedMap { map: first, reference_from_map: Se2::identity() }];
+    for &other in others {
+        let found = align_by_radon(first, other, params)?;
+        if let Outcome::Found(first_from_other) = found.outcome {
+            placed.push(PlacedMap { map: other, reference_from_map: first_from_other });
+        }
+        matches.push(found);
+    }
+    Ok(TeamMerge { matches, merged: grid_merge::merge(&placed, fusion)? })
+}

@@ -1,0 +1,49 @@
+//! What cannot be meant as a pair of maps to merge.
+
+use ogm_core::GridError;
+
+/// Maps, points or parameters that cannot be meant.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RadonError {
+    /// Maps of different resolution, or a transform that is not finite or leads too far.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// A point with a NaN or infinite part.
+    #[error("point {index} is at ({x}, {y}); coordinates must be finite")]
+    NonFinitePoint {
+        /// Which point.
+        index: usize,
+        /// Its x, metres.
+        x: f64,
+        /// Its y, metres.
+        y: f64,
+    },
+    /// Radon images that were not sampled at the same angles.
+    #[error("Radon images of {target} and of {source_} angles cannot be compared; use one step")]
+    DifferentAngles {
+        /// Angles of the target's image.
+        target: usize,
+        /// Angles of the source's image.
+        source_: usize,
+    },
+    /// A parameter outside its range.
+    #[error("{name} must be {requirement}, got {value}")]
+    InvalidParameter {
+        /// Field of [`RadonParams`](crate::RadonParams) or of its parts.
+        name: &'static str,
+        /// What it must be.
+        requirement: &'static str,
+        /// What was given.
+        value: f64,
+    },
+}
+
+pub(crate) fn require(
+    holds: bool,
+    name: &'static str,
+    requirement: &'static str,
+    value: f64,
+) -> Result<(), RadonError> {
+    if holds { Ok(()) } else { Err(RadonError::InvalidParameter { name, requirement, value }) }
+}

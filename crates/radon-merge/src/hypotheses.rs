@@ -1,0 +1,333 @@
+//! Many poses from pairs of segments, each judged by how walls meet, and the best of them.
+
+use nalgebra::Point2;
+use ogm_core::{CellIndex, ClassThresholds, Grid, OccupancyGrid, Se2, wrap_angle, wrap_period};
+use std::f64::consts::PI;
+
+use crate::approximate::{Line, PoseRule, pose_between};
+use crate::correlation::{dot, histogram_correlations};
+use crate::error::{RadonError, require};
+use crate::parallel::map_in_order;
+use crate::verify::WallField;
+use crate::{DistinctiveParams, RotationCorrelation, WallSegment};
+
+/// How poses are proposed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HypothesisParams {
+    /// Least correlation of two segments, in all four senses; the paper wants "close to one".
+    pub min_correlation: f64,
+    /// Most poses to judge.
+    pub max_hypotheses: usize,
+    /// Walls that are this near to one of the other map meet it, cells.
+    pub reach: f64,
+    /// Most walls of a map that a pose is judged by.
+    pub samples: usize,
+    /// Most distinct poses that go on to the translation.
+    pub max_candidates: usize,
+}
+
+impl Default for HypothesisParams {
+    fn default() -> Self {
+        Self {
+            min_correlation: 0.9,
+            max_hypotheses: 300_000,
+            reach: 3.0,
+            samples: 250,
+            max_candidates: 16,
+        }
+    }
+}
+
+impl HypothesisParams {
+    pub(crate) fn check(&self) -> Result<(), RadonError> {
+        let least = self.min_correlation;
+        let name = "hypotheses.min_correlation";
+        require((-1.0..=1.0).contains(&least), name, "-1 to 1", least)?;
+        let reach_ok = self.reach >= 0.0 && self.reach <= 1000.0;
+        require(reach_ok, "hypotheses.reach", "0 to 1000 cells", self.reach)?;
+        let samples = self.samples as f64;
+        require(self.samples > 0, "hypotheses.samples", "at least 1", samples)
+    }
+}
+
+/// A pose that two segments of like shape propose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Hypothesis {
+    /// Which segment of the target.
+    pub target_segment: usize,
+    /// Which segment of the source.
+    pub source_segment: usize,
+    /// By the lines and means of the segments.
+    pub approximate_target_from_source: Se2,
+    /// With the rotation tuned.
+    pub turned_target_from_source: Se2,
+    /// Share of sampled walls that meet a wall of the other map, less those that fall on its free
+    /// space; both directions. 1 is full agreement.
+    pub score: f64,
+    /// How many hypotheses were judged before.
+    pub order: usize,
+}
+
+/// All that were judged.
+#[derive(Debug)]
+pub(crate) struct Proposals {
+    /// The better ones, in the order in which they were judged.
+    pub(crate) promising: Vec<Hypothesis>,
+    /// Pairs of segments that were compared.
+    pub(crate) compared: usize,
+    /// Poses that were judged.
+    pub(crate) judged: usize,
+}
+
+/// Poses below this score are counted and forgotten.
+const PROMISING: f64 = 0.1;
+
+/// Target segments that are compared before the budget is looked at.
+const BLOCK: usize = 32;
+
+/// Compares every segment of the target with every one of the source, until the budget is spent,
+/// and judges the pose of each pair that is alike.
+pub(crate) fn propose(
+    segments: [&[WallSegment]; 2],
+    rotation: &Rotations,
+    judge: &Judge,
+    params: &HypothesisParams,
+    distinctive: &DistinctiveParams,
+) -> Proposals {
+    let [target, source] = segments.map(|segments| {
+        let shapes = segments.iter().map(Shape::new);
+        shapes.collect::<Vec<Option<Shape<'_>>>>()
+    });
+    let mut all = Proposals { promising: Vec::new(), compared: 0, judged: 0 };
+    for (block, targets) in target.chunks(BLOCK).enumerate() {
+        if all.judged >= params.max_hypotheses {
+            break;
+        }
+        let judged = map_in_order(targets, |offset, target| {
+            let mut judged = Vec::new();
+            for (source_segment, source) in source.iter().enumerate() {
+                let (Some(target), Some(source)) = (target, source) else { continue };
+                if !target.is_like(source, params.min_correlation, distinctive) {
+                    continue;
+                }
+                let approximate_target_from_source =
+                    pose_between(&target.line, &source.line, PoseRule::Corrected);
+                let theta = rotation.tuned(approximate_target_from_source.theta());
+                let turned = Se2::new(0.0, 0.0, theta);
+                let translation = target.line.mean - turned * source.line.mean;
+                let turned_target_from_source = Se2::new(translation.x, translation.y, theta);
+                judged.push(Hypothesis {
+                    target_segment: block * BLOCK + offset,
+                    source_segment,
+                    approximate_target_from_source,
+                    turned_target_from_source,
+                    score: judge.score(&turned_target_from_source),
+                    order: 0,
+                });
+            }
+            judged
+        });
+        all.compared += targets.len() * source.len();
+        for mut hypothesis in judged.into_iter().flatten() {
+            hypothesis.order = all.judged;
+            all.judged += 1;
+            if hypothesis.score > PROMISING {
+                all.promising.push(hypothesis);
+            }
+        }
+    }
+    all
+}
+
+/// A segment, ready to be compared with many.
+struct Shape<'a> {
+    segment: &'a WallSegment,
+    line: Line,
+    /// Of unit length.
+    distance: Vec<f64>,
+    /// Of unit length.
+    arc: Vec<f64>,
+}
+
+impl<'a> Shape<'a> {
+    fn new(segment: &'a WallSegment) -> Option<Self> {
+        let unit = |values: &[f64]| {
+            let norm = dot(values, values).sqrt();
+            (norm > 0.0).then(|| values.iter().map(|value| value / norm).collect())
+        };
+        Some(Self {
+            segment,
+            line: Line::fit(&segment.points)?,
+            distance: unit(&segment.signature.distance)?,
+            arc: unit(&segment.signature.arc)?,
+        })
+    }
+
+    /// Whether all four correlations of [`correlate`](crate::correlate) reach `least`; the
+    /// vectors first, which cost least and rule out most.
+    fn is_like(&self, other: &Self, least: f64, params: &DistinctiveParams) -> bool {
+        dot(&self.arc, &other.arc) >= least
+            && dot(&self.distance, &other.distance) >= least
+            && histogram_correlations(&self.segment.signature, &other.segment.signature, params)
+                .iter()
+                .all(|&correlation| correlation >= least)
+    }
+}
+
+/// Tuned rotations, looked up.
+#[derive(Debug)]
+pub(crate) struct Rotations {
+    /// Correction at every step of half a turn.
+    corrections: Vec<f64>,
+    step: f64,
+}
+
+impl Rotations {
+    pub(crate) fn new(correlation: &RotationCorrelation, window: f64) -> Self {
+        let step = correlation.angle_step;
+        let at = |index: usize| correlation.correction(index as f64 * step, window);
+        Self { corrections: (0..correlation.values.len()).map(at).collect(), step }
+    }
+
+    fn tuned(&self, rotation: f64) -> f64 {
+        let count = self.corrections.len();
+        #[expect(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "a half turn has a few hundred steps"
+        )]
+        let index = (rotation.rem_euclid(PI) / self.step).round() as usize % count.max(1);
+        // The lookup is for the nearest step, not for `rotation` itself.
+        let from_step = wrap_period(rotation - index as f64 * self.step, PI);
+        wrap_angle(rotation - from_step + self.corrections.get(index).copied().unwrap_or(0.0))
+    }
+}
+
+/// Judges a pose by how sampled walls of each map fall on the other.
+pub(crate) struct Judge {
+    target: Field,
+    source: Field,
+}
+
+struct Field {
+    grid_from_map: Se2,
+    resolution: f64,
+    /// 1 where a wall is near, −1 on free space away from walls, 0 where nothing is known.
+    votes: Grid<i8>,
+    /// Walls of the map.
+    samples: Vec<Point2<f64>>,
+}
+
+impl Judge {
+    pub(crate) fn new(
+        target: &WallField<'_>,
+        source: &WallField<'_>,
+        thresholds: &ClassThresholds,
+        params: &HypothesisParams,
+    ) -> Self {
+        let field = |walls: &WallField<'_>| Field::new(walls, thresholds, params);
+        Self { target: field(target), source: field(source) }
+    }
+
+    /// See [`Hypothesis::score`].
+    pub(crate) fn score(&self, target_from_source: &Se2) -> f64 {
+        let votes = self.target.votes_on(&self.source.samples, target_from_source)
+            + self.source.votes_on(&self.target.samples, &target_from_source.inverse());
+        f64::from(votes) / (self.source.samples.len() + self.target.samples.len()).max(1) as f64
+    }
+}
+
+impl Field {
+    fn new(walls: &WallField<'_>, thresholds: &ClassThresholds, params: &HypothesisParams) -> Self {
+        let map: &OccupancyGrid = walls.map;
+        let reach_sq = params.reach * params.reach;
+        let mut votes = walls.distance_sq.map(|&d| i8::from(f64::from(d) <= reach_sq));
+        for (vote, &cell) in votes.cells_mut().iter_mut().zip(map.cells().cells()) {
+            if *vote == 0 && thresholds.is_free(cell) {
+                *vote = -1;
+            }
+        }
+        let every = walls.walls.len().div_ceil(params.samples).max(1);
+        Self {
+            grid_from_map: map.frame().map_from_grid().inverse(),
+            resolution: map.frame().resolution(),
+            votes,
+            samples: walls.walls.iter().step_by(every).copied().collect(),
+        }
+    }
+
+    fn votes_on(&self, samples: &[Point2<f64>], this_from_other: &Se2) -> i32 {
+        let grid_from_other = self.grid_from_map * *this_from_other;
+        let (sin, cos) = grid_from_other.theta().sin_cos();
+        let scale = 1.0 / self.resolution;
+        let votes = samples.iter().map(|point| {
+            let x = (cos * point.x - sin * point.y + grid_from_other.x()) * scale;
+            let y = (sin * point.x + cos * point.y + grid_from_other.y()) * scale;
+            if !(x >= 0.0 && y >= 0.0) {
+                return 0;
+            }
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "not negative; what is too large lies outside"
+            )]
+            let cell = CellIndex { column: x as usize, row: y as usize };
+            if cell.row >= self.votes.height() {
+                return 0;
+            }
+            self.votes.get(cell).map_or(0, |&vote| i32::from(vote))
+        });
+        votes.sum()
+    }
+}
+
+/// The best of `promising` that lie apart, best first, each with how many others lie near it.
+pub(crate) fn distinct(
+    promising: &[Hypothesis],
+    centre: Point2<f64>,
+    apart: &Apart,
+    count: usize,
+) -> Vec<(Hypothesis, usize)> {
+    let mut order: Vec<usize> = (0..promising.len()).collect();
+    order.sort_by(|&a, &b| promising[b].score.total_cmp(&promising[a].score));
+    let mut kept: Vec<(Hypothesis, usize)> = Vec::new();
+    for index in order {
+        let one = promising[index];
+        let pose_target_from_source = one.turned_target_from_source;
+        let near = kept.iter().position(|(best, _)| {
+            !apart.are(&best.turned_target_from_source, &pose_target_from_source, centre)
+        });
+        match near {
+            Some(position) => {
+                let (best, support) = &mut kept[position];
+                *support += 1;
+                best.order = best.order.min(one.order);
+            }
+            None if kept.len() < count => kept.push((one, 1)),
+            None => {}
+        }
+    }
+    kept
+}
+
+/// When two poses are not the same.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Apart {
+    /// Metres at the middle of the source's walls.
+    pub(crate) distance: f64,
+    /// Radians.
+    pub(crate) angle: f64,
+}
+
+impl Apart {
+    pub(crate) fn are(
+        &self,
+        a_target_from_source: &Se2,
+        b_target_from_source: &Se2,
+        centre: Point2<f64>,
+    ) -> bool {
+        let (a, b) = (*a_target_from_source, *b_target_from_source);
+        (a * centre - b * centre).norm() > self.distance
+            || wrap_angle(a.theta() - b.theta()).abs() > self.angle
+    }
+}

@@ -57,12 +57,6 @@ impl Termination {
     pub fn is_converged(&self) -> bool {
         matches!(self, Self::Converged)
     }
-
-    /// Whether the result is the start, unchanged, because the search diverged.
-    #[must_use]
-    pub fn is_diverged(&self) -> bool {
-        matches!(self, Self::WorseFit { .. } | Self::MovedTooFar { .. })
-    }
 }
 
 /// The rectangle of the target frame in which both maps are expected to have walls (Tsardoulias

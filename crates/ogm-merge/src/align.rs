@@ -78,17 +78,23 @@ pub fn merge(
     params: &MergeParams,
 ) -> Result<(MergeReport, Option<Merged>), MergeError> {
     let report = align(method, target, source, &params.rfid)?;
-    let merged = match &report.outcome {
-        Outcome::Found(target_from_source) => {
-            let placed = [
-                PlacedMap { map: target.map, reference_from_map: Se2::identity() },
-                PlacedMap { map: source.map, reference_from_map: *target_from_source },
-            ];
-            Some(grid_merge::merge(&placed, &params.fusion)?)
-        }
-        Outcome::Refused(_) => None,
-    };
+    let merged = fuse_pair(target.map, source.map, &report.outcome, &params.fusion)?;
     Ok((report, merged))
+}
+
+/// Two maps in the frame of `target`, where a transform was found.
+pub(crate) fn fuse_pair(
+    target: &OccupancyGrid,
+    source: &OccupancyGrid,
+    outcome: &Outcome<Se2>,
+    fusion: &grid_merge::MergeParams,
+) -> Result<Option<Merged>, MergeError> {
+    let Outcome::Found(target_from_source) = outcome else { return Ok(None) };
+    let placed = [
+        PlacedMap { map: target, reference_from_map: Se2::identity() },
+        PlacedMap { map: source, reference_from_map: *target_from_source },
+    ];
+    Ok(Some(grid_merge::merge(&placed, fusion)?))
 }
 
 pub(crate) fn at_resolution<'a>(

@@ -1,14 +1,13 @@
 //! Merges the occupancy grid maps of robot teams.
 //!
-//! The recipes are those of Tsardoulias, Thallas, Petrou, *Metric Map Merging using RFID Tags &
-//! Topological Information*: [`Method::Rfid1`] to [`Method::Rfid3`]. [`align`] finds the transform
-//! between two maps or refuses with a reason, and its [`MergeReport`] says what each stage saw;
-//! [`merge`] also fuses the cells. [`align_carpin`] is that of Carpin and Birk, *Stochastic map
-//! merging in rescue environments*: no tags, but a rough start.
-//! [`merge`] also fuses the cells. [`merge_matched`] needs no tags.
+//! The recipes, each a short function over small crates:
 //!
-//! Without tags, [`align_by_radon`] and [`merge_by_radon`] follow Saeedi et al., *Multiple robot
-//! simultaneous localization and mapping*.
+//! - [`align`] and [`merge`]: methods #1 to #3 of Tsardoulias, Thallas, Petrou, *Metric Map Merging
+//!   using RFID Tags & Topological Information* ([`Method`]). A [`MergeReport`] says what each
+//!   stage saw.
+//! - [`align_carpin`]: the random walk of Carpin and Birk, from a rough start.
+//! - [`align_by_radon`] and [`merge_by_radon`]: the segments of Saeedi et al., for a team.
+//! - [`merge_matched`]: any two maps, without tags or a start.
 //!
 //! ```
 //! use ogm_merge::{MergeParams, Method, RobotMap, merge};

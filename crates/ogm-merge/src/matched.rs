@@ -1,10 +1,11 @@
 //! Any two maps: matched without tags, then fused.
 
 use grid_match::{MatchParams, MatchReport, match_maps};
-use grid_merge::{Merged, PlacedMap};
-use ogm_core::{OccupancyGrid, Outcome, Se2};
+use grid_merge::Merged;
+use ogm_core::OccupancyGrid;
 
 use crate::MergeError;
+use crate::align::fuse_pair;
 
 /// Finds the transform between two maps from the maps alone and fuses them in the frame of
 /// `target` at its resolution; the maps may differ in resolution.
@@ -20,16 +21,7 @@ pub fn merge_matched(
     fusion: &grid_merge::MergeParams,
 ) -> Result<(MatchReport, Option<Merged>), MergeError> {
     let report = match_maps(target, source, matching)?;
-    let merged = match &report.outcome {
-        Outcome::Found(target_from_source) => {
-            let placed = [
-                PlacedMap { map: target, reference_from_map: Se2::identity() },
-                PlacedMap { map: source, reference_from_map: *target_from_source },
-            ];
-            Some(grid_merge::merge(&placed, fusion)?)
-        }
-        Outcome::Refused(_) => None,
-    };
+    let merged = fuse_pair(target, source, &report.outcome, fusion)?;
     Ok((report, merged))
 }
 

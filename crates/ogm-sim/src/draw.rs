@@ -15,6 +15,9 @@ pub(crate) enum Stream {
     TagOffsets,
     TagRanges,
     Drive,
+    Floor,
+    Bend,
+    Pair,
 }
 
 /// The generator of `stream` for the work item `item`.

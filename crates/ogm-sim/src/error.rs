@@ -50,6 +50,9 @@ pub enum SimError {
         /// What it is.
         value: f64,
     },
+    /// No exploration of a drawn floor gave maps that overlap as asked for.
+    #[error("no two parts of this floor overlap as asked for; try another seed")]
+    NoSuchPair,
     /// A map that is no grid, mostly because it would be too large.
     #[error(transparent)]
     Grid(#[from] GridError),

@@ -29,9 +29,15 @@
 //!
 //! Everything is decided by seeds: the same parameters give the same bytes.
 
+mod bend;
+mod conditions;
+mod draft;
 mod draw;
 mod drive;
 mod error;
+mod explore;
+mod floors;
+mod labelled;
 mod lidar;
 mod mapping;
 mod navigate;
@@ -45,15 +51,19 @@ mod rounds;
 mod run;
 mod symmetry;
 mod tags;
+mod truth;
 mod wander;
 
 pub use drive::{DriveParams, drive};
 pub use error::SimError;
+pub use floors::FloorKind;
+pub use labelled::{LabelledPair, Relation, labelled_pair};
 pub use pair::{SimulatedPair, simulate_pair};
 pub use params::{DriftParams, LidarParams, MappingParams, PairParams, TagParams};
 pub use plan::{Face, FloorPlan, Robot};
 pub use run::{RobotRun, map_along_path, survey};
 pub use tags::{place_tags, tag_readings};
+pub use truth::PairTruth;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

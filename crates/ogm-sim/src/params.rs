@@ -51,7 +51,11 @@ impl PairParams {
         Self {
             lidar: LidarParams::cb(),
             mapping: MappingParams { resolution: 0.14, ..MappingParams::default() },
-            drift: DriftParams { odometry_share: 0.01, compass_sigma: 2.0_f64.to_radians() },
+            drift: DriftParams {
+                odometry_share: 0.01,
+                compass_sigma: 2.0_f64.to_radians(),
+                ..DriftParams::default()
+            },
             ..Self::rf()
         }
     }
@@ -62,7 +66,8 @@ impl PairParams {
         self.mapping.check()?;
         self.tags.check()?;
         not_negative("odometry_share", self.drift.odometry_share)?;
-        not_negative("compass_sigma", self.drift.compass_sigma)
+        not_negative("compass_sigma", self.drift.compass_sigma)?;
+        not_negative("bend", self.drift.bend)
     }
 }
 
@@ -225,6 +230,9 @@ pub struct DriftParams {
     pub odometry_share: f64,
     /// Standard deviation of the heading of each scan, radians; does not accumulate.
     pub compass_sigma: f64,
+    /// Standard deviation, per axis, of a smooth displacement over 15 m and more, metres: the bend
+    /// that remains in a map after its loops are closed.
+    pub bend: f64,
 }
 
 pub(crate) fn positive(name: &'static str, value: f64) -> Result<(), SimError> {

@@ -2,6 +2,8 @@
 
 use nalgebra::{Point2, Vector2};
 use ogm_core::{CellIndex, Grid, GridFrame, Se2};
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
 
 use crate::SimError;
 
@@ -77,6 +79,11 @@ impl Solid {
             along: Vector2::new(self.along.x, -self.along.y),
             ..*self
         }
+    }
+
+    /// The same after half a turn of a plan of `size` about its middle.
+    pub(crate) fn half_turned(&self, size: Vector2<f64>) -> Self {
+        Self { centre: Point2::from(size - self.centre.coords), along: -self.along, ..*self }
     }
 
     /// Counter-clockwise.
@@ -156,6 +163,21 @@ impl FloorPlan {
     /// The same floor with other routes.
     pub(crate) fn with_routes(self, target: Vec<Point2<f64>>, source: Vec<Point2<f64>>) -> Self {
         Self { target_route: target, source_route: source, ..self }
+    }
+
+    /// The same floor with a share of its furniture carried elsewhere nearby, or away.
+    pub(crate) fn with_furniture_moved(&self, share: f64, rng: &mut ChaCha8Rng) -> Self {
+        let mut moved = self.clone();
+        moved.solids.clear();
+        for &solid in &self.solids {
+            if solid.kind == Kind::Wall || !rng.random_bool(share) {
+                moved.solids.push(solid);
+            } else if rng.random_bool(0.7) {
+                let step = Vector2::new(rng.random_range(-1.5..1.5), rng.random_range(-1.5..1.5));
+                moved.solids.push(Solid { centre: solid.centre + step, ..solid });
+            }
+        }
+        moved
     }
 
     /// Every side of every wall and piece of furniture.

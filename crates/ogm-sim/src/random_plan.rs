@@ -3,11 +3,9 @@
 use nalgebra::{Point2, Vector2};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use std::f64::consts::FRAC_PI_4;
 
+use crate::draft::{Draft, MARGIN, Room, THICKNESS};
 use crate::draw::{Stream, generator};
-use crate::plan::{Kind, Solid};
-use crate::plan_text::{Door, Wall, cut};
 use crate::rounds::rounds;
 use crate::symmetry::refuse_symmetric;
 use crate::{FloorPlan, Robot, SimError};
@@ -17,43 +15,11 @@ const ATTEMPTS: u64 = 100;
 /// A plan is refused when this share of it stays in place after a turn. The outer walls and a
 /// corridor in the middle make up about two thirds.
 const SYMMETRIC_SHARE: f64 = 0.9;
-const THICKNESS: f64 = 0.12;
-/// From the frame to the centre line of the outer walls, metres.
-const MARGIN: f64 = 0.34;
-const DOOR: f64 = 0.9;
-/// Furniture keeps this far from doors, metres.
-const DOORSTEP: f64 = 1.1;
-
-/// A room: `low` and `high` corners between the centre lines of its walls.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Room {
-    pub(crate) low: Point2<f64>,
-    pub(crate) high: Point2<f64>,
-}
-
-impl Room {
-    pub(crate) fn area(&self) -> f64 {
-        let size = self.high - self.low;
-        size.x * size.y
-    }
-
-    /// A point at least `inset` from the walls' centre lines, if the room is that large.
-    pub(crate) fn point(&self, inset: f64, rng: &mut ChaCha8Rng) -> Point2<f64> {
-        let along =
-            |low: f64, high: f64, share: f64| low + inset + (high - low - 2.0 * inset) * share;
-        let [x, y] = [rng.random(), rng.random()];
-        Point2::new(along(self.low.x, self.high.x, x), along(self.low.y, self.high.y, y))
-    }
-}
-
 /// A building under construction, its corridor along x.
 struct Building {
-    size: Vector2<f64>,
+    draft: Draft,
     corridor: Room,
     rooms: Vec<Room>,
-    walls: Vec<Wall>,
-    doors: Vec<Door>,
-    furniture: Vec<Solid>,
 }
 
 impl FloorPlan {
@@ -77,15 +43,13 @@ impl FloorPlan {
     fn draw(rng: &mut ChaCha8Rng) -> Result<Self, SimError> {
         let mut building = Building::shell(rng);
         building.add_rooms(MARGIN, building.corridor.low.y, rng);
-        building.add_rooms(building.corridor.high.y, building.size.y - MARGIN, rng);
-        building.furnish(rng);
+        building.add_rooms(building.corridor.high.y, building.draft.size.y - MARGIN, rng);
+        building.draft.furnish(&building.rooms, 2, rng);
         if rng.random_bool(0.5) {
             building.transpose();
         }
-        let (corridor, rooms) = (building.corridor, building.rooms);
-        let mut solids = cut(&building.walls, &building.doors);
-        solids.extend(building.furniture);
-        let plan = Self::new(building.size, solids, Vec::new(), Vec::new());
+        let Building { draft, corridor, rooms } = building;
+        let plan = draft.into_plan();
         refuse_symmetric(&plan, SYMMETRIC_SHARE)?;
         let [target, source] = rounds(&plan, corridor, rooms, rng)?;
         let plan = plan.with_routes(target, source);
@@ -100,32 +64,13 @@ impl Building {
     /// Outer walls and corridor.
     fn shell(rng: &mut ChaCha8Rng) -> Self {
         let size = Vector2::new(rng.random_range(12.0..17.0), rng.random_range(10.0..13.5));
-        let (right, top) = (size.x - MARGIN, size.y - MARGIN);
+        let right = size.x - MARGIN;
         let low = rng.random_range(0.33..0.47) * size.y;
         let high = low + rng.random_range(1.5..2.1);
-        let mut building = Self {
-            size,
-            corridor: Room { low: Point2::new(MARGIN, low), high: Point2::new(right, high) },
-            rooms: Vec::new(),
-            walls: Vec::new(),
-            doors: Vec::new(),
-            furniture: Vec::new(),
-        };
-        building.wall([MARGIN, MARGIN], [right, MARGIN]);
-        building.wall([right, MARGIN], [right, top]);
-        building.wall([right, top], [MARGIN, top]);
-        building.wall([MARGIN, top], [MARGIN, MARGIN]);
-        building.wall([MARGIN, low], [right, low]);
-        building.wall([MARGIN, high], [right, high]);
-        building
-    }
-
-    fn wall(&mut self, start: [f64; 2], end: [f64; 2]) {
-        self.walls.push(Wall { start: start.into(), end: end.into(), thickness: THICKNESS });
-    }
-
-    fn door(&mut self, x: f64, y: f64) {
-        self.doors.push(Door { centre: Point2::new(x, y), width: DOOR });
+        let mut draft = Draft::new(size);
+        draft.wall([MARGIN, low], [right, low]);
+        draft.wall([MARGIN, high], [right, high]);
+        Self { draft, corridor: Room::new([MARGIN, low], [right, high]), rooms: Vec::new() }
     }
 
     /// Rooms between `low` and `high` on one side of the corridor, each with a door to it, some
@@ -134,27 +79,27 @@ impl Building {
         let below = low < self.corridor.low.y;
         let (door_y, outer_y) = if below { (high, low) } else { (low, high) };
         let count = rng.random_range(2..=4_u32);
-        let width = (self.size.x - 2.0 * MARGIN) / f64::from(count);
+        let width = (self.draft.size.x - 2.0 * MARGIN) / f64::from(count);
         let mut left = MARGIN;
         for room in 1..=count {
             let even = MARGIN + width * f64::from(room);
             let right =
                 if room < count { even + rng.random_range(-0.22..0.22) * width } else { even };
             if room < count {
-                self.wall([right, low], [right, high]);
+                self.draft.wall([right, low], [right, high]);
                 if rng.random_bool(0.3) {
-                    self.door(right, rng.random_range(low + 0.9..high - 0.9));
+                    self.draft.door(right, rng.random_range(low + 0.9..high - 0.9));
                 }
             }
-            self.door(rng.random_range(left + 0.8..right - 0.8), door_y);
+            self.draft.door(rng.random_range(left + 0.8..right - 0.8), door_y);
             if rng.random_bool(0.5) {
                 let x = rng.random_range(left + 0.8..right - 0.8);
                 let depth = rng.random_range(0.5..1.2);
                 let tip = if below { outer_y + depth } else { outer_y - depth };
-                self.wall([x, outer_y], [x, tip]);
+                self.draft.wall([x, outer_y], [x, tip]);
                 if rng.random_bool(0.4) {
                     let reach = rng.random_range(0.3..0.7);
-                    self.wall([x - THICKNESS / 2.0, tip], [x + reach, tip]);
+                    self.draft.wall([x - THICKNESS / 2.0, tip], [x + reach, tip]);
                 }
             }
             self.rooms.push(Room { low: Point2::new(left, low), high: Point2::new(right, high) });
@@ -162,42 +107,12 @@ impl Building {
         }
     }
 
-    /// Up to two pieces of furniture a room, half of them askew, none in front of a door.
-    fn furnish(&mut self, rng: &mut ChaCha8Rng) {
-        let mut places: Vec<Point2<f64>> = self.doors.iter().map(|door| door.centre).collect();
-        for room in &self.rooms {
-            for _ in 0..2 {
-                let size = Vector2::new(rng.random_range(0.5..1.5), rng.random_range(0.4..0.8));
-                let angle = if rng.random_bool(0.5) {
-                    rng.random_range(-FRAC_PI_4..FRAC_PI_4)
-                } else {
-                    0.0
-                };
-                let centre = room.point(0.5, rng);
-                let keep = DOORSTEP + size.norm() / 2.0 - 0.4;
-                if places.iter().all(|place| (place - centre).norm() > keep) {
-                    self.furniture.push(Solid::new(Kind::Furniture, centre, size, angle));
-                    places.push(centre);
-                }
-            }
-        }
-    }
-
     /// Swaps x and y.
     fn transpose(&mut self) {
         let swap = |point: Point2<f64>| Point2::new(point.y, point.x);
-        self.size = self.size.yx();
-        for wall in &mut self.walls {
-            (wall.start, wall.end) = (swap(wall.start), swap(wall.end));
-        }
-        for door in &mut self.doors {
-            door.centre = swap(door.centre);
-        }
+        self.draft.transpose();
         for room in self.rooms.iter_mut().chain([&mut self.corridor]) {
             (room.low, room.high) = (swap(room.low), swap(room.high));
-        }
-        for solid in &mut self.furniture {
-            *solid = solid.transposed();
         }
     }
 }

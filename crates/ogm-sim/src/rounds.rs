@@ -3,8 +3,8 @@
 use nalgebra::Point2;
 use rand_chacha::ChaCha8Rng;
 
+use crate::draft::Room;
 use crate::navigate::{FreeSpace, Node};
-use crate::random_plan::Room;
 use crate::wander::wander;
 use crate::{FloorPlan, SimError};
 

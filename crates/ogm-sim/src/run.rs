@@ -6,6 +6,7 @@ use rand::RngExt;
 use rand_distr::StandardNormal;
 use std::f64::consts::PI;
 
+use crate::bend::Bend;
 use crate::draw::{Stream, generator};
 use crate::lidar::Lidar;
 use crate::mapping::{CellBox, Mapper};
@@ -142,7 +143,8 @@ fn map_along_paths(
         for index in scan_points(drive.path.len(), params) {
             let heading = drive.headings[index];
             let world_from_robot = Se2::new(drive.path[index].x, drive.path[index].y, heading);
-            let error = params.drift.compass_sigma * compass.sample::<f64, _>(StandardNormal);
+            let error = params.drift.compass_sigma * compass.sample::<f64, _>(StandardNormal)
+                + drive.bend.turn(drive.path[index]);
             let at = drive.believed[index];
             let map_from_robot = Se2::new(at.x, at.y, heading - world_from_map.theta() + error);
             lidar.scan(world_from_robot, &mut rng);
@@ -160,11 +162,18 @@ fn map_along_paths(
     Ok(RobotRun { map, coverage, readings, world_from_map, path: believed })
 }
 
+/// How the map of a robot is bent, in the plan.
+pub(crate) fn bend(robot: Robot, params: &PairParams) -> Bend {
+    let mut rng = generator(params.seed, Stream::Bend, robot as u64);
+    Bend::draw(params.drift.bend, &mut rng)
+}
+
 /// Where a robot is and where it believes to be.
 struct Drive<'a> {
     robot: Robot,
     path: &'a [Point2<f64>],
     headings: Vec<f64>,
+    bend: Bend,
     /// In the map frame.
     believed: Vec<Point2<f64>>,
 }
@@ -177,6 +186,7 @@ impl<'a> Drive<'a> {
         params: &PairParams,
     ) -> Self {
         let mut rng = generator(params.seed, Stream::Drift, robot as u64);
+        let bend = bend(robot, params);
         let mut error = nalgebra::Vector2::zeros();
         let mut before = path.first();
         let believed = path
@@ -187,10 +197,10 @@ impl<'a> Drive<'a> {
                 let sigma = params.drift.odometry_share * travelled.sqrt();
                 error +=
                     nalgebra::Vector2::from_fn(|_, _| sigma * rng.sample::<f64, _>(StandardNormal));
-                map_from_world * (point + error)
+                map_from_world * (point + error + bend.shift(*point))
             })
             .collect();
-        Self { robot, path, headings: headings(path), believed }
+        Self { robot, path, headings: headings(path), bend, believed }
     }
 }
 

@@ -199,7 +199,8 @@ fn drift_moves_the_map_off_the_truth_and_its_absence_does_not() {
     let exact = run(DriftParams::default());
     assert!(end(&exact) < 1e-9);
     let odometry_share = 0.02;
-    let drifting = run(DriftParams { odometry_share, compass_sigma: 0.03 });
+    let drifting =
+        run(DriftParams { odometry_share, compass_sigma: 0.03, ..DriftParams::default() });
     // 0.02 m a metre and axis over 47 m: 0.14 m an axis.
     assert!((0.01..0.6).contains(&end(&drifting)), "{} m", end(&drifting));
     let off = |run: &RobotRun| median_off_the_walls(&plan, &run.map, run.world_from_map);

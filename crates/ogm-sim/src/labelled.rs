@@ -1,0 +1,216 @@
+//! Pairs of maps with the right answer, drawn at random.
+
+use nalgebra::Vector2;
+use ogm_core::OccupancyGrid;
+use rand::RngExt;
+use rand_chacha::ChaCha8Rng;
+use std::f64::consts::PI;
+
+use crate::conditions::Conditions;
+use crate::draw::{Stream, generator};
+use crate::explore::{Part, explore, free_space};
+use crate::run::{bend, frame_at_start, random_heading};
+use crate::truth::{PairTruth, pair_truth};
+use crate::{FloorKind, FloorPlan, PairParams, Robot, RobotRun, SimError, map_along_path};
+
+/// Overlap of pairs that do.
+const OVERLAP: [f64; 2] = [0.15, 0.9];
+/// How close a drawn overlap is met.
+const NEAR: f64 = 0.06;
+/// Overlap up to which maps have nothing in common: a glance through a door.
+const TOUCH: f64 = 0.01;
+/// Least range of a robot that had to see less, metres.
+const SHORTEST_RANGE: f64 = 2.5;
+/// Explorations before the best so far is taken.
+const ATTEMPTS: usize = 6;
+
+/// How two maps belong together.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Relation {
+    /// Parts of one floor that overlap by 15 to 90 %.
+    Overlapping,
+    /// Parts of one floor that have nothing in common.
+    Apart,
+    /// Two floors, of one kind or of two.
+    Unrelated,
+}
+
+/// Two maps and the truth about them.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct LabelledPair {
+    /// The map whose frame is kept.
+    pub target: OccupancyGrid,
+    /// The map to be moved.
+    pub source: OccupancyGrid,
+    /// How the maps lie on each other; `None` if they must not be merged.
+    pub truth: Option<PairTruth>,
+    /// Whether both robots knew their poses and nothing moved, so that the truth is exact.
+    pub exact: bool,
+}
+
+/// Draws a pair of maps: floor, parts explored, sensors, resolutions, drift and moved furniture
+/// are all decided by `seed`.
+///
+/// # Errors
+/// A floor that robots cannot explore as asked for: another seed may do.
+pub fn labelled_pair(
+    kind: FloorKind,
+    relation: Relation,
+    seed: u64,
+) -> Result<LabelledPair, SimError> {
+    let item = 3 * kind as u64 + relation as u64;
+    let mut rng = generator(seed, Stream::Pair, item);
+    let conditions = Conditions::draw(&mut rng);
+    let plan = kind.draw(rng.random());
+    match relation {
+        Relation::Overlapping => overlapping(&plan, &conditions, &mut rng),
+        Relation::Apart => apart(&plan, &conditions, &mut rng),
+        Relation::Unrelated => {
+            let other = FloorKind::ALL[rng.random_range(0..FloorKind::ALL.len())];
+            let other = if rng.random_bool(0.5) { kind } else { other };
+            unrelated([&plan, &other.draw(rng.random())], &conditions, &mut rng)
+        }
+    }
+}
+
+/// Two robots on one floor, before it is decided how far each goes.
+struct Visit<'a> {
+    plans: [&'a FloorPlan; 2],
+    params: [PairParams; 2],
+    /// Along which the parts lie.
+    normal: Vector2<f64>,
+    /// Area of the second part over that of the first.
+    ratio: f64,
+}
+
+impl Visit<'_> {
+    /// Maps of parts of which `planned` of the smaller is common; negative leaves a gap.
+    fn maps(&self, planned: f64, rng: &mut ChaCha8Rng) -> Result<[RobotRun; 2], SimError> {
+        let first = 1.0 / (1.0 + self.ratio * (1.0 - planned));
+        let parts = [(first, self.normal), (self.ratio * first, -self.normal)];
+        let run = |robot: Robot, rng: &mut ChaCha8Rng| {
+            let index = robot as usize;
+            let (share, normal) = parts[index];
+            mapped(self.plans[index], &self.params[index], robot, share, normal, rng)
+        };
+        Ok([run(Robot::Target, rng)?, run(Robot::Source, rng)?])
+    }
+
+    fn truth(&self, [target, source]: &[RobotRun; 2]) -> Result<Option<PairTruth>, SimError> {
+        let bends = [bend(Robot::Target, &self.params[0]), bend(Robot::Source, &self.params[1])];
+        pair_truth(target, source, [&bends[0], &bends[1]])
+    }
+}
+
+/// A map of the share of a floor that lies furthest against `normal`.
+fn mapped(
+    plan: &FloorPlan,
+    params: &PairParams,
+    robot: Robot,
+    share: f64,
+    normal: Vector2<f64>,
+    rng: &mut ChaCha8Rng,
+) -> Result<RobotRun, SimError> {
+    let space = free_space(plan)?;
+    let part = Part::holding(share, &space, normal);
+    let middle = plan.size() / 2.0;
+    let path = explore(&space, &part, params.step, rng)
+        .ok_or(SimError::BlockedRoute { x: middle.x, y: middle.y })?;
+    let world_from_map = frame_at_start(&path, random_heading(params.seed, robot));
+    map_along_path(plan, &path, &[], world_from_map, robot, params)
+}
+
+fn overlapping(
+    plan: &FloorPlan,
+    conditions: &Conditions,
+    rng: &mut ChaCha8Rng,
+) -> Result<LabelledPair, SimError> {
+    let later = plan.with_furniture_moved(conditions.moved_share, rng);
+    let mut params = [conditions.target, conditions.source];
+    let (normal, ratio) = (direction(rng), rng.random_range(0.5..1.0));
+    let wanted = rng.random_range(OVERLAP[0]..OVERLAP[1]);
+    let mut planned = wanted - 0.15;
+    let mut best: Option<(f64, LabelledPair)> = None;
+    for _ in 0..ATTEMPTS {
+        let visit = Visit { plans: [plan, &later], params, normal, ratio };
+        let maps = visit.maps(planned, rng)?;
+        let truth = visit.truth(&maps)?;
+        let overlap = truth.map_or(0.0, |truth| truth.overlap);
+        let off = (overlap - wanted).abs();
+        if best.as_ref().is_none_or(|(least, _)| off < *least) {
+            best = Some((off, labelled(maps, truth, conditions)));
+        }
+        if off < NEAR {
+            break;
+        }
+        planned = (planned + 1.3 * (wanted - overlap)).clamp(-2.0, 0.98);
+        // Where no gap is wide enough, the robots see too far.
+        if planned < -0.5 {
+            params = params.map(short_sighted);
+        }
+    }
+    best.map(|(_, pair)| pair)
+        .filter(|pair| {
+            let overlap = pair.truth.map_or(0.0, |truth| truth.overlap);
+            (OVERLAP[0]..=OVERLAP[1] + NEAR).contains(&overlap)
+        })
+        .ok_or(SimError::NoSuchPair)
+}
+
+fn apart(
+    plan: &FloorPlan,
+    conditions: &Conditions,
+    rng: &mut ChaCha8Rng,
+) -> Result<LabelledPair, SimError> {
+    let normal = direction(rng);
+    let ratio = rng.random_range(0.5..1.0);
+    let mut params = [conditions.target, conditions.source];
+    let mut gap = 0.3;
+    for _ in 0..ATTEMPTS {
+        let visit = Visit { plans: [plan; 2], params, normal, ratio };
+        let maps = visit.maps(-gap, rng)?;
+        if visit.truth(&maps)?.is_none_or(|truth| truth.overlap < TOUCH) {
+            return Ok(labelled(maps, None, conditions));
+        }
+        gap *= 2.0;
+        params = params.map(short_sighted);
+    }
+    Err(SimError::NoSuchPair)
+}
+
+/// The same robot with a shorter range.
+fn short_sighted(mut params: PairParams) -> PairParams {
+    params.lidar.max_range = (0.75 * params.lidar.max_range).max(SHORTEST_RANGE);
+    params
+}
+
+fn unrelated(
+    [target, source]: [&FloorPlan; 2],
+    conditions: &Conditions,
+    rng: &mut ChaCha8Rng,
+) -> Result<LabelledPair, SimError> {
+    let mut run = |plan, params, robot| {
+        let share = rng.random_range(0.4..1.0);
+        let normal = direction(rng);
+        mapped(plan, params, robot, share, normal, rng)
+    };
+    let target = run(target, &conditions.target, Robot::Target)?;
+    let source = run(source, &conditions.source, Robot::Source)?;
+    Ok(labelled([target, source], None, conditions))
+}
+
+fn labelled(
+    [target, source]: [RobotRun; 2],
+    truth: Option<PairTruth>,
+    conditions: &Conditions,
+) -> LabelledPair {
+    let drifts = conditions.target.drift != crate::DriftParams::default();
+    let exact = !drifts && conditions.moved_share == 0.0;
+    LabelledPair { target: target.map, source: source.map, truth, exact }
+}
+
+fn direction(rng: &mut ChaCha8Rng) -> Vector2<f64> {
+    let (sin, cos) = rng.random_range(-PI..PI).sin_cos();
+    Vector2::new(cos, sin)
+}

@@ -1,0 +1,75 @@
+//! Labelled pairs are what their labels say.
+
+use ogm_core::{ClassThresholds, OccupancyGrid, Se2};
+use ogm_sim::{FloorKind, LabelledPair, Relation, labelled_pair};
+
+fn pairs(relation: Relation) -> impl Iterator<Item = (FloorKind, LabelledPair)> {
+    FloorKind::ALL.into_iter().flat_map(move |kind| {
+        let pair = (0..4).filter_map(move |seed| labelled_pair(kind, relation, seed).ok());
+        pair.take(1).map(move |pair| (kind, pair))
+    })
+}
+
+/// Share of the source walls in the known area of the target that lie within `reach` metres of a
+/// target wall.
+fn walls_agree(pair: &LabelledPair, target_from_source: &Se2, reach: f64) -> f64 {
+    let thresholds = ClassThresholds::default();
+    let target_walls = pair.target.occupied_points(&thresholds);
+    let is_known = |map: &OccupancyGrid, point| thresholds.is_free(map.at(point));
+    let (mut near, mut compared) = (0.0, 0.0);
+    for wall in pair.source.occupied_points(&thresholds).iter().step_by(31) {
+        let place = *target_from_source * *wall;
+        let is_near = target_walls.iter().any(|other| (other - place).norm() < reach);
+        if is_near || is_known(&pair.target, place) {
+            compared += 1.0;
+            near += f64::from(u8::from(is_near));
+        }
+    }
+    near / compared
+}
+
+#[test]
+fn walls_of_a_pair_lie_on_each_other_under_the_truth() {
+    let mut kinds = 0;
+    for (kind, pair) in pairs(Relation::Overlapping) {
+        let truth = pair.truth.unwrap();
+        assert!((0.15..0.96).contains(&truth.overlap), "{}", truth.overlap);
+        let resolution = pair.target.frame().resolution().max(pair.source.frame().resolution());
+        // A wall seen from both sides is 0.12 m thick.
+        let reach = 0.12 + resolution + 2.0 * truth.residual;
+        let agreement = walls_agree(&pair, &truth.target_from_source, reach);
+        let share = if pair.exact { 0.9 } else { 0.7 };
+        assert!(agreement > share, "{}: {agreement} within {reach} m", kind.name());
+        kinds += 1;
+    }
+    assert_eq!(kinds, FloorKind::ALL.len());
+}
+
+#[test]
+fn displacement_is_zero_at_the_truth_and_grows_with_the_error() {
+    let pair = labelled_pair(FloorKind::Offices, Relation::Overlapping, 1).unwrap();
+    let truth = pair.truth.unwrap();
+    assert!(truth.displacement(&truth.target_from_source) < 1e-9);
+    let off = Se2::new(0.3, 0.4, 0.0) * truth.target_from_source;
+    assert!((truth.displacement(&off) - 0.5).abs() < 1e-9);
+    let turned =
+        truth.target_from_source * Se2::about(truth.shared_centre, 0.1, nalgebra::Vector2::zeros());
+    assert!((truth.turn(&turned) - 0.1).abs() < 1e-9);
+    assert!((truth.displacement(&turned) - 0.1 * truth.shared_radius).abs() < 1e-3);
+}
+
+#[test]
+fn pairs_that_must_not_be_merged_have_no_truth() {
+    for relation in [Relation::Apart, Relation::Unrelated] {
+        let found: Vec<_> = pairs(relation).collect();
+        assert!(found.len() >= 5, "{} kinds {relation:?}", found.len());
+        assert!(found.iter().all(|(_, pair)| pair.truth.is_none()));
+    }
+}
+
+#[test]
+fn a_seed_is_a_pair() {
+    let draw = |seed| labelled_pair(FloorKind::Flat, Relation::Overlapping, seed);
+    assert_eq!(draw(2), draw(2));
+    assert_ne!(draw(2), draw(3));
+}

@@ -48,7 +48,7 @@ fn lidar(rng: &mut ChaCha8Rng) -> LidarParams {
         range_sigma: rng.random_range(0.005..0.03),
         quantum: 0.0,
         spurious_share: [0.0, 0.0, 0.003][rng.random_range(0..3)],
-        scan_every: rng.random_range(0.3..0.7),
+        scan_every: rng.random_range(0.5..1.1),
     }
 }
 

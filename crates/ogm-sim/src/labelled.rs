@@ -9,6 +9,7 @@ use std::f64::consts::PI;
 use crate::conditions::Conditions;
 use crate::draw::{Stream, generator};
 use crate::explore::{Part, explore, free_space};
+use crate::navigate::FreeSpace;
 use crate::run::{bend, frame_at_start, random_heading};
 use crate::truth::{PairTruth, pair_truth};
 use crate::{FloorKind, FloorPlan, PairParams, Robot, RobotRun, SimError, map_along_path};
@@ -77,6 +78,7 @@ pub fn labelled_pair(
 /// Two robots on one floor, before it is decided how far each goes.
 struct Visit<'a> {
     plans: [&'a FloorPlan; 2],
+    spaces: [&'a FreeSpace; 2],
     params: [PairParams; 2],
     /// Along which the parts lie.
     normal: Vector2<f64>,
@@ -92,7 +94,8 @@ impl Visit<'_> {
         let run = |robot: Robot, rng: &mut ChaCha8Rng| {
             let index = robot as usize;
             let (share, normal) = parts[index];
-            mapped(self.plans[index], &self.params[index], robot, share, normal, rng)
+            let floor = (self.plans[index], self.spaces[index]);
+            mapped(floor, &self.params[index], robot, share, normal, rng)
         };
         Ok([run(Robot::Target, rng)?, run(Robot::Source, rng)?])
     }
@@ -105,17 +108,16 @@ impl Visit<'_> {
 
 /// A map of the share of a floor that lies furthest against `normal`.
 fn mapped(
-    plan: &FloorPlan,
+    (plan, space): (&FloorPlan, &FreeSpace),
     params: &PairParams,
     robot: Robot,
     share: f64,
     normal: Vector2<f64>,
     rng: &mut ChaCha8Rng,
 ) -> Result<RobotRun, SimError> {
-    let space = free_space(plan)?;
-    let part = Part::holding(share, &space, normal);
+    let part = Part::holding(share, space, normal);
     let middle = plan.size() / 2.0;
-    let path = explore(&space, &part, params.step, rng)
+    let path = explore(space, &part, params.step, rng)
         .ok_or(SimError::BlockedRoute { x: middle.x, y: middle.y })?;
     let world_from_map = frame_at_start(&path, random_heading(params.seed, robot));
     map_along_path(plan, &path, &[], world_from_map, robot, params)
@@ -127,13 +129,14 @@ fn overlapping(
     rng: &mut ChaCha8Rng,
 ) -> Result<LabelledPair, SimError> {
     let later = plan.with_furniture_moved(conditions.moved_share, rng);
+    let spaces = [&free_space(plan)?, &free_space(&later)?];
     let mut params = [conditions.target, conditions.source];
     let (normal, ratio) = (direction(rng), rng.random_range(0.5..1.0));
     let wanted = rng.random_range(OVERLAP[0]..OVERLAP[1]);
     let mut planned = wanted - 0.15;
     let mut best: Option<(f64, LabelledPair)> = None;
     for _ in 0..ATTEMPTS {
-        let visit = Visit { plans: [plan, &later], params, normal, ratio };
+        let visit = Visit { plans: [plan, &later], spaces, params, normal, ratio };
         let maps = visit.maps(planned, rng)?;
         let truth = visit.truth(&maps)?;
         let overlap = truth.map_or(0.0, |truth| truth.overlap);
@@ -165,10 +168,11 @@ fn apart(
 ) -> Result<LabelledPair, SimError> {
     let normal = direction(rng);
     let ratio = rng.random_range(0.5..1.0);
+    let space = free_space(plan)?;
     let mut params = [conditions.target, conditions.source];
     let mut gap = 0.3;
     for _ in 0..ATTEMPTS {
-        let visit = Visit { plans: [plan; 2], params, normal, ratio };
+        let visit = Visit { plans: [plan; 2], spaces: [&space; 2], params, normal, ratio };
         let maps = visit.maps(-gap, rng)?;
         if visit.truth(&maps)?.is_none_or(|truth| truth.overlap < TOUCH) {
             return Ok(labelled(maps, None, conditions));
@@ -193,7 +197,7 @@ fn unrelated(
     let mut run = |plan, params, robot| {
         let share = rng.random_range(0.4..1.0);
         let normal = direction(rng);
-        mapped(plan, params, robot, share, normal, rng)
+        mapped((plan, &free_space(plan)?), params, robot, share, normal, rng)
     };
     let target = run(target, &conditions.target, Robot::Target)?;
     let source = run(source, &conditions.source, Robot::Source)?;

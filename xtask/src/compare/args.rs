@@ -49,13 +49,15 @@ pub(crate) enum ExperimentId {
     X5,
     /// Wall segments and the Radon transform; runs only when asked for.
     X6,
+    /// The matcher on labelled pairs of maps, and whether its probability holds; only on request.
+    X7,
 }
 
 impl Args {
     /// The experiments that this command line asks for.
     pub(crate) fn experiments(&self) -> Vec<ExperimentId> {
         if self.only.is_empty() {
-            let on_request = [ExperimentId::X5, ExperimentId::X6];
+            let on_request = [ExperimentId::X5, ExperimentId::X6, ExperimentId::X7];
             let every = ExperimentId::value_variants().iter().copied();
             every.filter(|id| self.all || !on_request.contains(id)).collect()
         } else {

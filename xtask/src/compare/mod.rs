@@ -4,6 +4,9 @@ mod args;
 mod direction_figures;
 mod evaluation;
 mod format;
+mod labelled;
+mod labelled_curve;
+mod labelled_tables;
 mod method_charts;
 mod method_criteria;
 mod method_figures;
@@ -73,6 +76,7 @@ pub(crate) fn run(args: &Args) -> anyhow::Result<Verdict> {
             ExperimentId::X4 => methods::run(args)?,
             ExperimentId::X5 => random_walk::run(args)?,
             ExperimentId::X6 => segment_merge::run(args)?,
+            ExperimentId::X7 => labelled::run(args)?,
         };
         all.extend(measured);
     }

@@ -1,0 +1,134 @@
+//! Whether a probability means what it says: the reliability curve of X7.
+
+use super::labelled::Judged;
+use crate::draw::{Chart, Mark, Series, chart};
+use crate::report::{Criterion, Figure, Image, Section, Table};
+use crate::stats::wilson_ci95;
+
+/// Edges of the bins; narrow where a verdict is decided.
+const EDGES: [f64; 11] = [0.0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 1.0];
+/// Pairs from which a bin is judged.
+const ENOUGH: usize = 100;
+/// How far a bin may be off where its interval misses the diagonal.
+const OFF: f64 = 0.05;
+
+/// The best poses whose probability falls between two edges.
+struct Bin {
+    low: f64,
+    high: f64,
+    pairs: usize,
+    right: usize,
+    /// Mean of what was said.
+    said: f64,
+}
+
+impl Bin {
+    fn observed(&self) -> f64 {
+        self.right as f64 / self.pairs as f64
+    }
+
+    fn interval(&self) -> (f64, f64) {
+        wilson_ci95(self.right, self.pairs)
+    }
+
+    fn holds(&self) -> bool {
+        let (low, high) = self.interval();
+        (low..=high).contains(&self.said) || (self.observed() - self.said).abs() <= OFF
+    }
+}
+
+/// Adds table, figure and criteria to the section.
+pub(super) fn add(section: &mut Section, judged: &[Judged], quick: bool) {
+    let sets = [
+        ("all", bins(judged, |_| true)),
+        ("floors that do not repeat", bins(judged, |one| !one.kind.repeats())),
+        ("floors that repeat", bins(judged, |one| one.kind.repeats())),
+    ];
+    section.tables.push(Table {
+        caption: "Probability of the best pose against how often it is right, 95 % intervals. \
+                  Pairs of parts that look alike and do not overlap are left out."
+            .to_owned(),
+        header: ["pairs of", "probability", "pairs", "mean probability", "right"]
+            .map(str::to_owned)
+            .to_vec(),
+        rows: sets.iter().flat_map(|(name, bins)| bins.iter().map(|bin| row(name, bin))).collect(),
+    });
+    section.figures.push(figure(&sets));
+    if !quick {
+        section.criteria.extend(sets[..2].iter().map(|(name, bins)| criterion(name, bins)));
+    }
+}
+
+fn bins(judged: &[Judged], holds: impl Fn(&Judged) -> bool) -> Vec<Bin> {
+    let said: Vec<(f64, bool)> = judged
+        .iter()
+        .filter(|one| one.is_decidable() && holds(one))
+        .filter_map(|one| one.best.map(|best| (best.probability, best.is_right)))
+        .collect();
+    EDGES
+        .windows(2)
+        .filter_map(|edges| {
+            let [low, high] = [edges[0], edges[1]];
+            let inside = |p: f64| p >= low && (p < high || high == 1.0);
+            let inside: Vec<_> = said.iter().filter(|(p, _)| inside(*p)).collect();
+            let pairs = inside.len();
+            (pairs > 0).then(|| Bin {
+                low,
+                high,
+                pairs,
+                right: inside.iter().filter(|(_, right)| *right).count(),
+                said: inside.iter().map(|(p, _)| p).sum::<f64>() / pairs as f64,
+            })
+        })
+        .collect()
+}
+
+fn row(name: &str, bin: &Bin) -> Vec<String> {
+    let (low, high) = bin.interval();
+    vec![
+        name.to_owned(),
+        format!("{:.2}–{:.2}", bin.low, bin.high),
+        bin.pairs.to_string(),
+        format!("{:.3}", bin.said),
+        format!("{:.3} [{low:.3}, {high:.3}]", bin.observed()),
+    ]
+}
+
+fn figure(sets: &[(&str, Vec<Bin>); 3]) -> Figure {
+    let mut series = vec![Series {
+        name: "as it should be".to_owned(),
+        points: vec![(0.0, 0.0), (1.0, 1.0)],
+        mark: Mark::Dashed,
+    }];
+    series.extend(sets.iter().map(|(name, bins)| Series {
+        name: (*name).to_owned(),
+        points: bins.iter().map(|bin| (bin.said, bin.observed())).collect(),
+        mark: Mark::DottedLine,
+    }));
+    Figure {
+        name: "reliability".to_owned(),
+        caption: "How often the best pose is right, by the probability that it was given."
+            .to_owned(),
+        image: Image::Svg(chart(&Chart {
+            title: "Reliability of the probability".to_owned(),
+            x_label: "probability given".to_owned(),
+            y_label: "share right".to_owned(),
+            log_y: false,
+            series,
+        })),
+    }
+}
+
+fn criterion(name: &str, bins: &[Bin]) -> Criterion {
+    let judged = || bins.iter().filter(|bin| bin.pairs >= ENOUGH);
+    let off = judged().map(|bin| (bin.observed() - bin.said).abs()).fold(0.0, f64::max);
+    Criterion {
+        id: format!("X7 reliability, {name}"),
+        statement: "every bin of ≥ 100 pairs holds the diagonal or is within 0.05; largest gap"
+            .to_owned(),
+        paper: None,
+        ours: off,
+        interval: None,
+        pass: judged().next().is_some() && judged().all(Bin::holds),
+    }
+}

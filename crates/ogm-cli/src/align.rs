@@ -4,13 +4,13 @@ use crate::Ending;
 use crate::args::AlignArgs;
 use crate::input::Input;
 use crate::progress::Progress;
-use crate::search::{Robot, check_tags, search};
+use crate::search::{Robot, check, search};
 use crate::tags::logs_of;
 use crate::{terminal, text};
 
 pub(crate) fn run(args: &AlignArgs) -> anyhow::Result<Ending> {
     let logs = logs_of(&[&args.target, &args.source], &args.search.tags)?;
-    check_tags(&args.search, &logs)?;
+    check(&args.search, &logs)?;
     let quiet = args.search.quiet;
     let target = Input::read(&args.target, quiet)?;
     let source = Input::read(&args.source, quiet)?;

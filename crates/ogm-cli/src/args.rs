@@ -88,7 +88,7 @@ pub(crate) struct SearchArgs {
     /// robot positions in the frame of that map
     #[arg(long, value_name = "MAP.yaml=TAGS.csv")]
     pub(crate) tags: Vec<String>,
-    /// A transform that is already believed: maps points of B into A (match only)
+    /// A transform that is already believed: maps points of B into A (match and carpin only)
     #[arg(long, value_name = "X,Y,DEG", allow_hyphen_values = true, requires = "prior_sigma")]
     pub(crate) prior: Option<Pose>,
     /// One standard deviation of the prior; the search is bounded at three
@@ -172,6 +172,10 @@ pub(crate) enum MethodArg {
     Rfid2,
     /// As rfid2, then refined on the walls
     Rfid3,
+    /// By a random walk from --prior, or else from the maps' middles on each other
+    Carpin,
+    /// By wall segments that look alike, then the Radon transform
+    Radon,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]

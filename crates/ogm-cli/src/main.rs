@@ -6,6 +6,7 @@ mod align;
 mod answer;
 mod apply;
 mod args;
+mod found;
 mod info;
 mod input;
 mod merge;
@@ -16,6 +17,7 @@ mod search;
 mod tags;
 mod terminal;
 mod text;
+mod untagged;
 mod usage;
 mod view;
 

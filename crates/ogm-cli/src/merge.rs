@@ -13,7 +13,7 @@ use crate::args::MergeArgs;
 use crate::input::{Input, MapFile};
 use crate::pose::Pose;
 use crate::progress::Progress;
-use crate::search::{Robot, check_tags, search};
+use crate::search::{Robot, check, search};
 use crate::tags::logs_of;
 use crate::usage::UsageError;
 use crate::{Ending, output, terminal, text};
@@ -67,7 +67,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     };
     let quiet = args.search.quiet;
     let logs = logs_of(&[target, source], &args.search.tags)?;
-    check_tags(&args.search, &logs)?;
+    check(&args.search, &logs)?;
     let inputs = [Input::read(target, quiet)?, Input::read(source, quiet)?];
     check_outputs(args, &inputs, logs.iter().flatten().map(AsRef::as_ref))?;
 

@@ -3,17 +3,19 @@
 use std::path::PathBuf;
 use std::time::Instant;
 
-use grid_match::{MatchParams, PreparedMap, Prior, match_maps, score_pose};
-use ogm_core::{ClassThresholds, Outcome, Se2, TagEstimate};
+use grid_match::{MatchParams, Prior, match_maps};
+use ogm_core::{Outcome, Se2, TagEstimate};
 use ogm_merge::{Method, RfidParams, RobotMap};
 use rfid_loc::{SelectionParams, common_tags, select_tags};
 
 use crate::answer::{Hypothesis, PairAnswer, SCHEMA, Verdict};
 use crate::args::{MethodArg, SearchArgs};
+use crate::found::Found;
 use crate::input::Input;
 use crate::pose::Pose;
 use crate::tags::localised;
 use crate::terminal;
+use crate::untagged::{by_segments, by_walk};
 use crate::usage::UsageError;
 
 /// A map and, if there is one, its tag log.
@@ -23,15 +25,19 @@ pub(crate) struct Robot<'a> {
     pub(crate) log: Option<&'a PathBuf>,
 }
 
-/// Whether the tags that a method needs were named; before anything is read.
-pub(crate) fn check_tags(args: &SearchArgs, logs: &[Option<PathBuf>]) -> Result<(), UsageError> {
+/// Whether a method has what it needs and nothing that it cannot use; before anything is read.
+pub(crate) fn check(args: &SearchArgs, logs: &[Option<PathBuf>]) -> Result<(), UsageError> {
     let by_tags = matches!(args.method, MethodArg::Rfid1 | MethodArg::Rfid2 | MethodArg::Rfid3);
     if by_tags && logs.iter().any(Option::is_none) {
         let message = "a method by tags needs --tags MAP.yaml=TAGS.csv for both maps";
         return Err(UsageError(message.to_owned()));
     }
     if by_tags && args.prior.is_some() {
-        let message = "a method by tags takes no --prior; use --method match";
+        let message = "a method by tags takes no --prior; use --method match or carpin";
+        return Err(UsageError(message.to_owned()));
+    }
+    if args.method == MethodArg::Radon && args.prior.is_some() {
+        let message = "--method radon takes no --prior; use --method match or carpin";
         return Err(UsageError(message.to_owned()));
     }
     Ok(())
@@ -49,6 +55,8 @@ pub(crate) fn search(
         MethodArg::Rfid1 => by_tags(Method::Rfid1, target, source, args)?,
         MethodArg::Rfid2 => by_tags(Method::Rfid2, target, source, args)?,
         MethodArg::Rfid3 => by_tags(Method::Rfid3, target, source, args)?,
+        MethodArg::Carpin => by_walk(target.input.map(), source.input.map(), args)?,
+        MethodArg::Radon => by_segments(target.input.map(), source.input.map(), args)?,
         MethodArg::Auto => by_what_there_is(target, source, args)?,
     };
     let refusal = found.outcome.refusal();
@@ -69,17 +77,6 @@ pub(crate) fn search(
         elapsed_ms,
         copies: are_copies(target, source),
     })
-}
-
-/// What a method says.
-struct Found {
-    method: &'static str,
-    outcome: Outcome<Se2>,
-    /// Accepted or not.
-    target_from_source: Option<Se2>,
-    overlap: Option<f64>,
-    agreement: Option<f64>,
-    hypotheses: Vec<Hypothesis>,
 }
 
 /// Method #3 where three tags are known well enough in both maps, else the maps alone.
@@ -177,29 +174,10 @@ fn from_tags(
         Outcome::Found(target_from_source) => Some(*target_from_source),
         Outcome::Refused(_) => report.evidence.start_target_from_source,
     };
-    let evidence = match &target_from_source {
-        Some(target_from_source) => {
-            let thresholds = ClassThresholds::default();
-            let [target, source] =
-                [target_map, source_map].map(|map| PreparedMap::new(map, &thresholds));
-            Some(score_pose(&target, &source, target_from_source)?)
-        }
-        None => None,
+    let name = match method {
+        Method::Rfid1 | Method::Rfid1b => "rfid1",
+        Method::Rfid2 => "rfid2",
+        Method::Rfid3 => "rfid3",
     };
-    let hypotheses = target_from_source.zip(evidence).map(|(target_from_source, evidence)| {
-        let pose = Pose::from(target_from_source);
-        Hypothesis { pose, probability: None, score: evidence.score(), covariance: None }
-    });
-    Ok(Found {
-        method: match method {
-            Method::Rfid1 | Method::Rfid1b => "rfid1",
-            Method::Rfid2 => "rfid2",
-            Method::Rfid3 => "rfid3",
-        },
-        outcome: report.outcome,
-        target_from_source,
-        overlap: evidence.map(|evidence| evidence.overlap),
-        agreement: evidence.map(|evidence| evidence.agreement()),
-        hypotheses: hypotheses.into_iter().collect(),
-    })
+    Found::scored(name, report.outcome, target_from_source, [target_map, source_map])
 }

@@ -117,6 +117,14 @@ pub enum Refusal {
         /// Wall cells that lie where the other map knows.
         compared: usize,
     },
+    /// A search that always ends somewhere ended where the maps speak against it.
+    #[error(
+        "unlikely: what the maps share gives the best transform log-odds of {log_odds:.1}, more than 0 needed; start closer or explore further"
+    )]
+    Unlikely {
+        /// Log-odds that it is right against that none is.
+        log_odds: f64,
+    },
     /// More than one answer fits.
     #[error(
         "ambiguous: evidence differs by {residual_rad:.3} rad from the chosen quarter turn, at most {limit_rad:.3} allowed"

@@ -13,12 +13,15 @@ pub struct CarpinParams {
     pub rules: RandomWalk,
     /// How maps are compared, and for how long.
     pub search: carpin_walk::Params,
+    /// Cells are at least this large for the walk, metres: 0, the maps' own. Larger ones cost less
+    /// and take the walk further, since it moves by cells.
+    pub min_resolution: f64,
 }
 
 /// The answer of the random walk, and what led to it.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CarpinReport {
-    /// Metres a cell of the maps as they were compared: the coarser of the two.
+    /// Metres a cell of the maps as they were compared: the coarser of the two, or the least.
     pub resolution: f64,
     /// Where the walk began.
     pub start_target_from_source: Se2,
@@ -30,7 +33,8 @@ pub struct CarpinReport {
 /// Finds the transform that maps points of `source` into the frame of `target` by a random walk
 /// from a rough start (Carpin and Birk, *Stochastic map merging in rescue environments*).
 ///
-/// Maps of different resolution are both brought to the coarser one for this. Unlike the methods
+/// Maps of different resolution are both brought to the coarser one for this, and to the least of
+/// `params` if that is coarser. Unlike the methods
 /// with tags it never says that two maps do not match: a walk always ends somewhere.
 ///
 /// # Errors
@@ -42,6 +46,7 @@ pub fn align_carpin(
     params: &CarpinParams,
 ) -> Result<CarpinReport, MergeError> {
     let resolution = target.frame().resolution().max(source.frame().resolution());
+    let resolution = resolution.max(params.min_resolution);
     let thresholds = &params.search.distance.thresholds;
     let target = at_resolution(target, resolution, thresholds)?;
     let source = at_resolution(source, resolution, thresholds)?;
@@ -58,7 +63,7 @@ mod tests {
     use ogm_sim::{FloorPlan, PairParams, survey};
 
     #[test]
-    fn maps_of_two_resolutions_meet_at_the_coarser() {
+    fn maps_of_two_resolutions_meet_at_the_coarser_or_the_least() {
         let plan = FloorPlan::plan_a();
         let run = |seed, resolution, heading| {
             let mut robots = PairParams { seed, ..PairParams::cb() };
@@ -69,12 +74,14 @@ mod tests {
         let truth = target.world_from_map.between(&source.world_from_map);
         let centre = Point2::new(7.0, 6.0);
         let start = Se2::about(centre, 0.1, Vector2::new(1.0, -1.0)) * truth;
-        let report =
-            align_carpin(&target.map, &source.map, start, &CarpinParams::default()).unwrap();
-        assert_eq!(report.resolution, 0.28);
-        let found = report.outcome.found().unwrap().target_from_source;
-        let error = (found * (truth.inverse() * centre) - centre).norm();
-        assert!(error < 0.28, "{error} m from a start 1.4 m off");
+        for (min_resolution, resolution) in [(0.0, 0.28), (0.35, 0.35)] {
+            let params = CarpinParams { min_resolution, ..CarpinParams::default() };
+            let report = align_carpin(&target.map, &source.map, start, &params).unwrap();
+            assert_eq!(report.resolution, resolution);
+            let found = report.outcome.found().unwrap().target_from_source;
+            let error = (found * (truth.inverse() * centre) - centre).norm();
+            assert!(error < 0.28, "{error} m from a start 1.4 m off");
+        }
     }
 
     #[test]

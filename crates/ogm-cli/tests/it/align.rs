@@ -13,7 +13,7 @@ use crate::{apart, draw, ends_with, fixtures, header, json, pose, truth};
 const CLOSE: (f64, f64) = (0.05, 0.5);
 
 #[track_caller]
-fn assert_close(found: &serde_json::Value) {
+pub(crate) fn assert_close(found: &serde_json::Value) {
     let error = apart(pose(&found["target_from_source"]), truth());
     assert!(error.0 < CLOSE.0 && error.1 < CLOSE.1, "{error:?}");
 }
@@ -178,13 +178,14 @@ fn command_lines_that_cannot_be_meant_end_with_2() {
         "align {F}/target.yaml".to_owned(),
         "compare {F}/target.yaml {F}/source.yaml".to_owned(),
         format!("align {maps} {{F}}/target.yaml"),
-        format!("align {maps} --method carpin"),
+        format!("align {maps} --method icp"),
         format!("align {maps} --method rfid3"),
         format!("align {maps} --accept 1.5"),
         format!("align {maps} --accept nan"),
         format!("align {maps} --seed -1"),
         format!("align {maps} --prior 1,2,3"),
         format!("align {maps} --prior 1,2 --prior-sigma 1,1"),
+        format!("align {maps} --prior 1,2,3 --prior-sigma 1,1 --method radon"),
         format!("align {maps} --prior nan,2,3 --prior-sigma 1,1"),
         format!("align {maps} --prior 1,2,3 --prior-sigma -1,1"),
         format!("align {maps} --tags {{F}}/target.tags.csv"),

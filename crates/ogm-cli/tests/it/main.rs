@@ -7,6 +7,7 @@ mod align;
 mod files;
 mod merge;
 mod pictures;
+mod untagged;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

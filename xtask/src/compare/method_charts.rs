@@ -1,7 +1,7 @@
 //! The charts of X4: error by method and regime.
 
 use super::method_tables::{Cell, TABLE_4};
-use super::methods::{REGIMES, case_name};
+use super::methods::{MATCH, REGIMES, case_name, case_without_tags};
 use super::record::Run;
 use super::worlds::Building;
 use crate::draw::{Bars, Chart, Mark, Series, bars, chart};
@@ -21,7 +21,7 @@ pub(super) fn draw(runs: &[Run]) -> Vec<Figure> {
         Figure {
             name: "error-spread".to_owned(),
             caption: "Share of the unrefused runs on random plans whose error is at most this, \
-                      tags + 10 px."
+                      tags + 10 px; match takes no tags."
                 .to_owned(),
             image: Image::Svg(spread(runs, 10.0)),
         },
@@ -29,27 +29,34 @@ pub(super) fn draw(runs: &[Run]) -> Vec<Figure> {
 }
 
 fn means(runs: &[Run]) -> String {
+    let mean = |case: &str, variant: &str| {
+        Summary::of(&Cell::new(runs, case, variant).mse_disp()).map_or(f64::NAN, |s| s.mean)
+    };
     let paper = TABLE_4.iter().map(|(_, mse, _)| mse.parse().unwrap_or(f64::NAN));
     let ours = REGIMES.map(|sigma_px| {
         let case = case_name(Building::Random, sigma_px);
-        let mean = |variant: &str| {
-            Summary::of(&Cell::new(runs, &case, variant).mse_disp()).map_or(f64::NAN, |s| s.mean)
-        };
-        (format!("tags + {sigma_px:.0} px"), TABLE_4.map(|(variant, ..)| mean(variant)).to_vec())
+        let means = TABLE_4.map(|(variant, ..)| mean(&case, variant));
+        (format!("tags + {sigma_px:.0} px"), means.to_vec())
     });
+    let matched = mean(&case_without_tags(Building::Random), MATCH);
+    let none = TABLE_4.map(|_| f64::NAN);
+    let groups = TABLE_4.map(|(variant, ..)| variant).into_iter().chain([MATCH]);
     bars(&Bars {
         title: "Mean squared displacement".to_owned(),
         y_label: "px² of 0.02 m".to_owned(),
         log_y: true,
-        groups: TABLE_4.map(|(variant, ..)| variant.to_owned()).to_vec(),
-        series: std::iter::once(("paper".to_owned(), paper.collect())).chain(ours).collect(),
+        groups: groups.map(str::to_owned).collect(),
+        series: std::iter::once(("paper".to_owned(), paper.collect()))
+            .chain(ours)
+            .chain([("without tags".to_owned(), [&none[..], &[matched]].concat())])
+            .collect(),
     })
 }
 
 fn spread(runs: &[Run], sigma_px: f64) -> String {
     let case = case_name(Building::Random, sigma_px);
-    let series = TABLE_4.map(|(variant, ..)| {
-        let mut errors = Cell::new(runs, &case, variant).mse_disp();
+    let curve = |case: &str, variant: &str| {
+        let mut errors = Cell::new(runs, case, variant).mse_disp();
         errors.sort_by(f64::total_cmp);
         let count = errors.len() as f64;
         let points = errors.into_iter().enumerate();
@@ -58,7 +65,9 @@ fn spread(runs: &[Run], sigma_px: f64) -> String {
             points: points.map(|(i, mse)| (100.0 * (i + 1) as f64 / count, mse)).collect(),
             mark: Mark::Line,
         }
-    });
+    };
+    let by_tags = TABLE_4.map(|(variant, ..)| curve(&case, variant));
+    let by_maps = curve(&case_without_tags(Building::Random), MATCH);
     let reference = Series {
         name: "paper, #3".to_owned(),
         points: vec![(0.0, 2.6), (100.0, 2.6)],
@@ -69,6 +78,6 @@ fn spread(runs: &[Run], sigma_px: f64) -> String {
         x_label: "share of runs, %".to_owned(),
         y_label: "mse_disp, px²".to_owned(),
         log_y: true,
-        series: series.into_iter().chain([reference]).collect(),
+        series: by_tags.into_iter().chain([by_maps, reference]).collect(),
     })
 }

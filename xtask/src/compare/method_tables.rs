@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::args::Args;
-use super::methods::{REGIMES, VARIANTS, case_name};
+use super::methods::{MATCH, REGIMES, VARIANTS, case_name, case_without_tags};
 use super::record::{Run, RunResult};
 use super::worlds::Building;
 use super::{Timing, format, method_criteria};
@@ -37,7 +37,9 @@ unrotated centroids gives; that is plausible, not proven.
 
 Before it refines, the default #3 looks up to 1 m and 5° around the result of #2 for a place where \
 more walls agree. The paper does not; \"#3 from where #2 ends\" and the rows below it leave that \
-out. #3 also refuses an answer under which less than 45 % of the common walls agree.";
+out. #3 also refuses an answer under which less than 45 % of the common walls agree.
+
+match is ours and looks at the maps alone, without tags or a start, so it has one row for all regimes.";
 
 /// The section of X4.
 pub(super) fn section(args: &Args, runs: &[Run], timings: &[Timing]) -> Section {
@@ -89,42 +91,9 @@ fn table_4(args: &Args, runs: &[Run]) -> Table {
     let mut rows = Vec::new();
     for sigma_px in REGIMES {
         let case = case_name(Building::Random, sigma_px);
-        for (variant, paper, _) in TABLE_4 {
-            let cell = Cell::new(runs, &case, variant);
-            let first = Cell {
-                runs: cell.runs.iter().filter(|run| run.seed < args.seed + 5).copied().collect(),
-            };
-            let five = first.mse_disp();
-            let mut row = vec![case.clone(), variant.to_owned(), paper.to_owned()];
-            row.push(match (Summary::of(&five), student_half_width(&five)) {
-                (Some(summary), Some(half)) => {
-                    format!("{} ± {}", format::px2(summary.mean), format::px2(half))
-                }
-                (Some(summary), None) => format::px2(summary.mean),
-                (None, _) => "–".to_owned(),
-            });
-            row.extend(match cell.summary() {
-                Some(s) => [
-                    format!(
-                        "{} [{}, {}]",
-                        format::px2(s.mean),
-                        format::px2(s.ci95.0),
-                        format::px2(s.ci95.1)
-                    ),
-                    format::px2(s.median),
-                ],
-                None => ["–".to_owned(), "–".to_owned()],
-            });
-            let beyond = cell.mse_disp().iter().filter(|&&mse| mse > OUTLIER).count();
-            row.extend([
-                format::px2(Summary::of(&cell.mse_nn()).map_or(f64::NAN, |s| s.mean)),
-                cell.runs.len().to_string(),
-                cell.refused().to_string(),
-                beyond.to_string(),
-            ]);
-            rows.push(row);
-        }
+        rows.extend(TABLE_4.map(|(variant, paper, _)| result(args, runs, &case, variant, paper)));
     }
+    rows.push(result(args, runs, &case_without_tags(Building::Random), MATCH, "–"));
     Table {
         caption: format!(
             "Mean squared displacement, px² of 0.02 m. Five runs with Student's t half-width; all \
@@ -150,10 +119,47 @@ fn table_4(args: &Args, runs: &[Run]) -> Table {
     }
 }
 
+/// A row of the table of results.
+fn result(args: &Args, runs: &[Run], case: &str, variant: &str, paper: &str) -> Vec<String> {
+    let cell = Cell::new(runs, case, variant);
+    let first =
+        Cell { runs: cell.runs.iter().filter(|run| run.seed < args.seed + 5).copied().collect() };
+    let five = first.mse_disp();
+    let mut row = vec![case.to_owned(), variant.to_owned(), paper.to_owned()];
+    row.push(match (Summary::of(&five), student_half_width(&five)) {
+        (Some(summary), Some(half)) => {
+            format!("{} ± {}", format::px2(summary.mean), format::px2(half))
+        }
+        (Some(summary), None) => format::px2(summary.mean),
+        (None, _) => "–".to_owned(),
+    });
+    row.extend(match cell.summary() {
+        Some(s) => [
+            format!(
+                "{} [{}, {}]",
+                format::px2(s.mean),
+                format::px2(s.ci95.0),
+                format::px2(s.ci95.1)
+            ),
+            format::px2(s.median),
+        ],
+        None => ["–".to_owned(), "–".to_owned()],
+    });
+    let beyond = cell.mse_disp().iter().filter(|&&mse| mse > OUTLIER).count();
+    row.extend([
+        format::px2(Summary::of(&cell.mse_nn()).map_or(f64::NAN, |s| s.mean)),
+        cell.runs.len().to_string(),
+        cell.refused().to_string(),
+        beyond.to_string(),
+    ]);
+    row
+}
+
 /// Wall times are context: the paper's machine was another. They go to the caption-less table of
 /// the report and to timings.csv, never into a result file.
 fn times(timings: &[Timing]) -> Table {
-    let rows = TABLE_4.map(|(variant, _, paper)| {
+    let methods = TABLE_4.map(|(variant, _, paper)| (variant, paper));
+    let rows = methods.into_iter().chain([(MATCH, "–")]).map(|(variant, paper)| {
         let values: Vec<f64> =
             timings.iter().filter(|t| t.step == variant).map(|t| t.milliseconds).collect();
         let ours = Summary::of(&values);
@@ -171,26 +177,29 @@ fn times(timings: &[Timing]) -> Table {
         header: ["method", "paper, mean", "ours, median", "ours, longest"]
             .map(str::to_owned)
             .to_vec(),
-        rows: rows.to_vec(),
+        rows: rows.collect(),
     }
 }
 
 fn variants(runs: &[Run], building: Building) -> Table {
+    let shown = |case: &str, variant: &str| {
+        let cell = Cell::new(runs, case, variant);
+        match (cell.summary(), Summary::of(&cell.mse_nn())) {
+            (Some(disp), Some(nn)) => format!(
+                "{} / {} / {}",
+                format::px2(disp.mean),
+                format::px2(disp.median),
+                format::px2(nn.mean)
+            ),
+            _ => "–".to_owned(),
+        }
+    };
     let rows = VARIANTS.iter().map(|variant| {
-        let cells = REGIMES.map(|sigma_px| {
-            let cell = Cell::new(runs, &case_name(building, sigma_px), variant.name);
-            match (cell.summary(), Summary::of(&cell.mse_nn())) {
-                (Some(disp), Some(nn)) => format!(
-                    "{} / {} / {}",
-                    format::px2(disp.mean),
-                    format::px2(disp.median),
-                    format::px2(nn.mean)
-                ),
-                _ => "–".to_owned(),
-            }
-        });
+        let cells = REGIMES.map(|sigma_px| shown(&case_name(building, sigma_px), variant.name));
         [vec![variant.name.to_owned()], cells.to_vec()].concat()
     });
+    let matched = shown(&case_without_tags(building), MATCH);
+    let matched = [MATCH, &matched, "the same", "the same", "the same"].map(str::to_owned).to_vec();
     let name = match building {
         Building::Random => "random plans",
         Building::PlanA => "plan A, ten seeds",
@@ -198,22 +207,26 @@ fn variants(runs: &[Run], building: Building) -> Table {
     Table {
         caption: format!(
             "All variants on {name}: mean mse_disp / median mse_disp / mean mse_nn, px². The \
-             printed forms of #1 depend on the frame's origin: that of the start pose unless said."
+             printed forms of #1 depend on the frame's origin: that of the start pose unless said. \
+             {MATCH} takes no tags."
         ),
         header: ["variant", "tags as localised", "+ 2 px", "+ 5 px", "+ 10 px"]
             .map(str::to_owned)
             .to_vec(),
-        rows: rows.collect(),
+        rows: rows.chain([matched]).collect(),
     }
 }
 
 /// One row for each world and what went wrong there, with the regimes and methods it struck.
 fn failures(runs: &[Run]) -> Table {
+    let refined = |variant: &str| ["#3", MATCH].contains(&variant);
     let mut struck: BTreeMap<(u64, String), BTreeSet<String>> = BTreeMap::new();
-    for run in runs.iter().filter(|run| TABLE_4.iter().any(|(name, ..)| *name == run.variant)) {
+    let defaults = TABLE_4.map(|(name, ..)| name).into_iter().chain([MATCH]);
+    let defaults: Vec<&str> = defaults.collect();
+    for run in runs.iter().filter(|run| defaults.contains(&run.variant.as_str())) {
         let what = match &run.result {
             RunResult::Refused(refusal) => refusal.to_string(),
-            RunResult::Transform(e) if run.variant == "#3" && e.mse_disp > METHOD_3 => {
+            RunResult::Transform(e) if refined(&run.variant) && e.mse_disp > METHOD_3 => {
                 format!("mse_disp {} px²", format::px2(e.mse_disp))
             }
             _ => continue,
@@ -225,14 +238,14 @@ fn failures(runs: &[Run]) -> Table {
         let cases: Vec<String> = cases.into_iter().collect();
         let all = TABLE_4.len() * REGIMES.len();
         let cases = if cases.len() == all {
-            "all regimes and methods".to_owned()
+            "all regimes of #1, #2 and #3".to_owned()
         } else {
             cases.join(", ")
         };
         vec![seed.to_string(), what, cases]
     });
     Table {
-        caption: "Every refused run of the defaults, and every run of #3 beyond 2.6 px²."
+        caption: "Every refused run of the defaults, and every run of #3 and match beyond 2.6 px²."
             .to_owned(),
         header: ["seed", "what", "where"].map(str::to_owned).to_vec(),
         rows: rows.collect(),

@@ -2,9 +2,10 @@
 
 use std::time::Instant;
 
+use grid_match::{MatchParams, match_maps};
 use icp2d::{IcpParams, Pairing};
 use nalgebra::Point2;
-use ogm_core::{Length, OccupancyGrid, Outcome};
+use ogm_core::{Length, OccupancyGrid, Outcome, Se2};
 use ogm_merge::{Anchor, Method, RfidParams, RobotMap, align};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 use rfid_loc::{RotationCentre, TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation};
@@ -16,6 +17,9 @@ use super::{Args, Measured, Timing, method_charts, method_figures, method_tables
 
 /// Standard deviation of the error added to each tag as localised, an axis, px of 0.02 m.
 pub(crate) const REGIMES: [f64; 4] = [0.0, 2.0, 5.0, 10.0];
+
+/// The method that looks at the maps alone. It runs once a world, whatever the tags.
+pub(crate) const MATCH: &str = "match";
 
 /// How many of the variants, from the front, are the defaults of #1, #2 and #3.
 const DEFAULT_VARIANTS: usize = 3;
@@ -211,12 +215,7 @@ fn run_world(
             let start = Instant::now();
             let report = align(variant.method, &target, &source, &params)?;
             let milliseconds = start.elapsed().as_secs_f64() * 1e3;
-            let result = match report.outcome {
-                Outcome::Found(target_from_source) => {
-                    RunResult::Transform(overlap.errors(&target_from_source))
-                }
-                Outcome::Refused(refusal) => RunResult::Refused(refusal),
-            };
+            let result = judge(&overlap, report.outcome);
             runs.push(Run {
                 experiment: "X4",
                 case: case_name(building, sigma_px),
@@ -227,18 +226,41 @@ fn run_world(
             timings.push(Timing { experiment: "X4", step: variant.name, seed, milliseconds });
         }
     }
+    let start = Instant::now();
+    let (target, source) = (&world.pair.target.map, &world.pair.source.map);
+    let report = match_maps(target, source, &MatchParams::default())?;
+    let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+    runs.push(Run {
+        experiment: "X4",
+        case: case_without_tags(building),
+        variant: MATCH.to_owned(),
+        seed,
+        result: judge(&overlap, report.outcome),
+    });
+    timings.push(Timing { experiment: "X4", step: MATCH, seed, milliseconds });
     Ok((runs, timings))
+}
+
+fn judge(overlap: &Overlap<'_>, outcome: Outcome<Se2>) -> RunResult {
+    match outcome {
+        Outcome::Found(target_from_source) => {
+            RunResult::Transform(overlap.errors(&target_from_source))
+        }
+        Outcome::Refused(refusal) => RunResult::Refused(refusal),
+    }
 }
 
 /// The name of a regime on one kind of building.
 pub(crate) fn case_name(building: Building, sigma_px: f64) -> String {
-    let building = match building {
-        Building::Random => "random plan",
-        Building::PlanA => "plan A",
-    };
+    let building = building.name();
     if sigma_px == 0.0 {
         format!("{building}, tags as localised")
     } else {
         format!("{building}, tags + {sigma_px:.0} px ({:.0} cm)", sigma_px * PIXEL * 100.0)
     }
+}
+
+/// The name of one kind of building where tags do not matter.
+pub(crate) fn case_without_tags(building: Building) -> String {
+    format!("{}, without tags", building.name())
 }

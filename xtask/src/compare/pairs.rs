@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
+use grid_match::{MatchParams, match_maps};
 use ogm_core::{Outcome, Se2};
 use ogm_merge::{Evidence, Method, RfidParams, RobotMap, align};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::evaluation::Overlap;
+use super::methods::MATCH;
 use super::pair_input::{MapPair, Truth, read_pairs};
 use super::pair_tags::localised_tags;
 use super::record::{Run, RunResult, TransformError, pose_error};
@@ -15,6 +17,9 @@ use crate::report::{Criterion, Section, Table};
 
 const METHODS: [(&str, Method); 3] =
     [("#1", Method::Rfid1), ("#2", Method::Rfid2), ("#3", Method::Rfid3)];
+
+/// The columns of the table and the order of the runs.
+const NAMES: [&str; 4] = ["#1", "#2", "#3", MATCH];
 
 const ANALYSIS: &str = "\
 The maps are real, the tags are not. Each robot drives through the free space that its own map \
@@ -25,9 +30,11 @@ that #3 has to refuse them for what the walls say; #1 and #2 do not look at that
 
 Errors are taken at the centroid of the source's known cells. An answer is inside when it is \
 within the pair's own tolerance; strict when within one cell of the target and 0.5°. The truth of \
-pairs from one corrected trajectory is exact; of the others it is good to 0.1 to 0.25 m.";
+pairs from one corrected trajectory is exact; of the others it is good to 0.1 to 0.25 m.
 
-/// What the three methods answered on one pair.
+match gets the two maps and nothing else.";
+
+/// What the methods answered on one pair.
 #[derive(Default)]
 struct Answers {
     runs: Vec<Run>,
@@ -37,7 +44,7 @@ struct Answers {
     target_from_source: Option<Se2>,
 }
 
-/// Runs the three methods on every pair below `folder`.
+/// Runs the methods on every pair below `folder`.
 pub(super) fn run(args: &Args, folder: &Path) -> anyhow::Result<Measured> {
     let pairs = read_pairs(folder)?;
     let bar = progress("pairs", pairs.len() as u64);
@@ -51,8 +58,11 @@ pub(super) fn run(args: &Args, folder: &Path) -> anyhow::Result<Measured> {
         .collect::<anyhow::Result<_>>()?;
     bar.finish_and_clear();
 
-    let verdicts: Vec<Verdict> =
-        pairs.iter().zip(&answers).map(|(p, a)| Verdict::of(p, a)).collect();
+    let verdicts: Vec<[Verdict; 4]> = pairs
+        .iter()
+        .zip(&answers)
+        .map(|(p, a)| NAMES.map(|name| Verdict::of(p, a, name)))
+        .collect();
     let overlaid: Vec<_> =
         pairs.iter().zip(&answers).map(|(p, a)| (p, a.target_from_source)).collect();
     let section = Section {
@@ -75,30 +85,33 @@ fn answer(pair: &MapPair, seed: u64) -> anyhow::Result<Answers> {
         seed,
         result,
     };
-    let [target_tags, source_tags] = match localised_tags(pair, seed)? {
-        Ok(tags) => tags,
+    let judged = |outcome| match (outcome, &pair.truth) {
+        (Outcome::Refused(refusal), _) => RunResult::Refused(refusal),
+        (Outcome::Found(target_from_source), Some(truth)) => {
+            RunResult::Transform(errors(pair, truth, &target_from_source))
+        }
+        (Outcome::Found(_), None) => RunResult::FalseMerge,
+    };
+    let mut answers = Answers::default();
+    match localised_tags(pair, seed)? {
+        Ok([target_tags, source_tags]) => {
+            let target = RobotMap { map: &pair.target, tags: &target_tags };
+            let source = RobotMap { map: &pair.source, tags: &source_tags };
+            let params = RfidParams::default();
+            for (name, method) in METHODS {
+                let report = align(method, &target, &source, &params)?;
+                answers.target_from_source = report.outcome.clone().found();
+                answers.runs.push(run(name, judged(report.outcome)));
+                answers.evidence = report.evidence;
+            }
+        }
         Err(refusal) => {
             let refused = METHODS.map(|(name, _)| run(name, RunResult::Refused(refusal.clone())));
-            return Ok(Answers { runs: refused.to_vec(), ..Answers::default() });
+            answers.runs.extend(refused);
         }
-    };
-    let target = RobotMap { map: &pair.target, tags: &target_tags };
-    let source = RobotMap { map: &pair.source, tags: &source_tags };
-    let params = RfidParams::default();
-    let mut answers = Answers::default();
-    for (name, method) in METHODS {
-        let report = align(method, &target, &source, &params)?;
-        answers.target_from_source = report.outcome.clone().found();
-        let result = match (report.outcome, &pair.truth) {
-            (Outcome::Refused(refusal), _) => RunResult::Refused(refusal),
-            (Outcome::Found(target_from_source), Some(truth)) => {
-                RunResult::Transform(errors(pair, truth, &target_from_source))
-            }
-            (Outcome::Found(_), None) => RunResult::FalseMerge,
-        };
-        answers.runs.push(run(name, result));
-        answers.evidence = report.evidence;
     }
+    let matched = match_maps(&pair.target, &pair.source, &MatchParams::default())?;
+    answers.runs.push(run(MATCH, judged(matched.outcome)));
     Ok(answers)
 }
 
@@ -109,7 +122,7 @@ fn errors(pair: &MapPair, truth: &Truth, target_from_source: &Se2) -> TransformE
     TransformError { translation_m, rotation, ..overlap.errors(target_from_source) }
 }
 
-/// How the answer of #3 is judged.
+/// How the answer of a method is judged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Verdict {
     Strict,
@@ -121,8 +134,8 @@ enum Verdict {
 }
 
 impl Verdict {
-    fn of(pair: &MapPair, answers: &Answers) -> Self {
-        let result = answers.runs.iter().find(|run| run.variant == "#3").map(|run| &run.result);
+    fn of(pair: &MapPair, answers: &Answers, method: &str) -> Self {
+        let result = answers.runs.iter().find(|run| run.variant == method).map(|run| &run.result);
         match (result, &pair.truth) {
             (Some(RunResult::Transform(e)), Some(truth)) => {
                 let cell = pair.target.frame().resolution();
@@ -156,32 +169,51 @@ impl Verdict {
     }
 }
 
-fn table(pairs: &[MapPair], answers: &[Answers], verdicts: &[Verdict]) -> Table {
-    let rows = pairs.iter().zip(answers).zip(verdicts).map(|((pair, answers), verdict)| {
-        let mut row = vec![
-            pair.name.clone(),
-            match &pair.truth {
-                Some(truth) if truth.exact => "exact".to_owned(),
-                Some(truth) => format!("{:.2} m", truth.tolerance_m),
-                None => "no match".to_owned(),
-            },
-            answers.evidence.common_tags.len().to_string(),
-        ];
-        row.extend(answers.runs.iter().map(|run| match &run.result {
-            RunResult::Transform(e) => {
-                format!("{:.3} m, {:.2}°", e.translation_m, e.rotation.to_degrees())
-            }
-            RunResult::Refused(_) => "refused".to_owned(),
-            RunResult::FalseMerge | RunResult::Direction(_) => "merged".to_owned(),
-        }));
-        row.push(verdict.text().to_owned());
+fn table(pairs: &[MapPair], answers: &[Answers], verdicts: &[[Verdict; 4]]) -> Table {
+    let rows = pairs.iter().zip(answers).zip(verdicts).map(|((pair, answers), verdicts)| {
+        let [.., by_3, by_match] = verdicts;
+        let [first, second, third, matched] = NAMES.map(|name| shown(answers, name));
+        let truth = match &pair.truth {
+            Some(truth) if truth.exact => "exact".to_owned(),
+            Some(truth) => format!("{:.2} m", truth.tolerance_m),
+            None => "no match".to_owned(),
+        };
+        let common_tags = answers.evidence.common_tags.len().to_string();
         let agreement = answers.evidence.wall_agreement.and_then(|agreement| agreement.share());
-        row.push(agreement.map_or("–".to_owned(), |share| format!("{share:.2}")));
-        row.push(remarks(answers));
-        row
+        vec![
+            pair.name.clone(),
+            truth,
+            common_tags,
+            first,
+            second,
+            third,
+            by_3.text().to_owned(),
+            matched,
+            by_match.text().to_owned(),
+            agreement.map_or("–".to_owned(), |share| format!("{share:.2}")),
+            remarks(answers),
+        ]
     });
+    let [first, second, third, matched] = [0, 1, 2, 3].map(|method| tally(verdicts, method));
+    let empty = String::new;
+    let all = vec![
+        format!("all {}", pairs.len()),
+        empty(),
+        empty(),
+        first,
+        second,
+        third,
+        empty(),
+        matched,
+        empty(),
+        empty(),
+        empty(),
+    ];
     Table {
-        caption: "Error of each method, and the verdict on #3.".to_owned(),
+        caption: "Error of each method, and the verdicts on #3 and match. Right: inside or \
+                  strict; wrong: outside; refused: although the maps match; false: merged although \
+                  they do not."
+            .to_owned(),
         header: [
             "pair",
             "truth",
@@ -189,14 +221,41 @@ fn table(pairs: &[MapPair], answers: &[Answers], verdicts: &[Verdict]) -> Table 
             "#1",
             "#2",
             "#3",
-            "verdict",
+            "verdict on #3",
+            MATCH,
+            "verdict on match",
             "walls agree",
-            "remarks",
+            "remarks on #3",
         ]
         .map(str::to_owned)
         .to_vec(),
-        rows: rows.collect(),
+        rows: rows.chain([all]).collect(),
     }
+}
+
+/// What a method answered on a pair.
+fn shown(answers: &Answers, method: &str) -> String {
+    let run = answers.runs.iter().find(|run| run.variant == method);
+    match run.map(|run| &run.result) {
+        Some(RunResult::Transform(e)) => {
+            format!("{:.3} m, {:.2}°", e.translation_m, e.rotation.to_degrees())
+        }
+        Some(RunResult::FalseMerge | RunResult::Direction(_)) => "merged".to_owned(),
+        Some(RunResult::Refused(_)) | None => "refused".to_owned(),
+    }
+}
+
+/// How often the method, by its place in [`NAMES`], was how good.
+fn tally(verdicts: &[[Verdict; 4]], method: usize) -> String {
+    let count = |good: fn(Verdict) -> bool| verdicts.iter().filter(|all| good(all[method])).count();
+    format!(
+        "{} right ({} strict), {} wrong, {} refused, {} false",
+        count(Verdict::is_inside),
+        count(|verdict| verdict == Verdict::Strict),
+        count(|verdict| verdict == Verdict::Outside),
+        count(|verdict| verdict == Verdict::Missed),
+        count(|verdict| verdict == Verdict::FalseMerge),
+    )
 }
 
 /// Why #3 refused, or what makes its answer less sure than it looks.
@@ -210,7 +269,15 @@ fn remarks(answers: &Answers) -> String {
     refusals.chain(warnings).collect::<Vec<_>>().join("; ")
 }
 
-fn criteria(pairs: &[MapPair], verdicts: &[Verdict]) -> Vec<Criterion> {
+fn criteria(pairs: &[MapPair], verdicts: &[[Verdict; 4]]) -> Vec<Criterion> {
+    let [.., by_3, by_match] = [0, 1, 2, 3].map(|method| {
+        let verdicts: Vec<Verdict> = verdicts.iter().map(|all| all[method]).collect();
+        criteria_of(NAMES[method], pairs, &verdicts)
+    });
+    by_3.into_iter().chain(by_match).collect()
+}
+
+fn criteria_of(method: &str, pairs: &[MapPair], verdicts: &[Verdict]) -> Vec<Criterion> {
     let judged = |of_interest: fn(&Truth) -> bool, good: fn(Verdict) -> bool| {
         let chosen = pairs.iter().zip(verdicts);
         let chosen: Vec<Verdict> = chosen
@@ -220,8 +287,8 @@ fn criteria(pairs: &[MapPair], verdicts: &[Verdict]) -> Vec<Criterion> {
         (chosen.iter().filter(|verdict| good(**verdict)).count(), chosen.len())
     };
     let share = |(good, all): (usize, usize)| good as f64 / all as f64;
-    let criterion = |id: &str, statement: String, counts, need: f64| Criterion {
-        id: id.to_owned(),
+    let criterion = |what: &str, statement: String, counts, need: f64| Criterion {
+        id: format!("pairs: {method} {what}"),
         statement,
         paper: None,
         ours: share(counts),
@@ -233,26 +300,26 @@ fn criteria(pairs: &[MapPair], verdicts: &[Verdict]) -> Vec<Criterion> {
     let false_merges = verdicts.iter().filter(|v| **v == Verdict::FalseMerge).count();
     vec![
         criterion(
-            "pairs: #3 inside",
+            "inside",
             format!(
-                "#3 inside the pair's tolerance on {} of {}, at least 22 of 25",
+                "{method} inside the pair's tolerance on {} of {}, at least 22 of 25",
                 inside.0, inside.1
             ),
             inside,
             22.0 / 25.0,
         ),
         criterion(
-            "pairs: #3 strict",
+            "strict",
             format!(
-                "#3 within one cell and 0.5° on {} of {} with exact truth, at least 12 of 15",
+                "{method} within one cell and 0.5° on {} of {} with exact truth, at least 12 of 15",
                 strict.0, strict.1
             ),
             strict,
             12.0 / 15.0,
         ),
         Criterion {
-            id: "pairs: false merges".to_owned(),
-            statement: "no pair that must be refused is merged".to_owned(),
+            id: format!("pairs: {method} false merges"),
+            statement: format!("no pair that must be refused is merged by {method}"),
             paper: None,
             ours: false_merges as f64,
             interval: None,

@@ -26,6 +26,15 @@ pub(crate) enum Building {
     PlanA,
 }
 
+impl Building {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Random => "random plan",
+            Self::PlanA => "plan A",
+        }
+    }
+}
+
 impl World {
     pub(crate) fn simulate(building: Building, seed: u64) -> anyhow::Result<Self> {
         let plan = match building {

@@ -15,6 +15,7 @@ mod draw;
 mod fixtures;
 #[cfg(test)]
 mod layers;
+mod race;
 mod report;
 mod stats;
 #[cfg(test)]
@@ -37,6 +38,8 @@ struct Cli {
 enum Task {
     /// Runs the papers' experiments and writes tables, figures and a report.
     Compare(compare::Args),
+    /// Times the command `ogm` and other tools on the same map pairs, and scores their answers.
+    Race(race::Args),
     /// Writes the example maps and tag logs into a folder.
     Fixtures {
         /// Where to.
@@ -48,6 +51,7 @@ enum Task {
 fn main() -> ExitCode {
     let done = match Cli::parse().task {
         Task::Compare(args) => compare::run(&args),
+        Task::Race(args) => race::run(&args).map(|()| compare::Verdict::Passed),
         Task::Fixtures { out } => fixtures::write(&out).map(|()| compare::Verdict::Passed),
     };
     match done {

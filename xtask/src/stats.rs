@@ -72,6 +72,11 @@ pub(crate) fn standard_deviation(values: &[f64]) -> Option<f64> {
     Some((squares / (values.len() - 1) as f64).sqrt())
 }
 
+/// The `p` quantile of `values` in any order, or `None` of nothing or with a NaN.
+pub(crate) fn quantile(values: &[f64], p: f64) -> Option<f64> {
+    sorted(values).map(|sorted| quantile_of_sorted(&sorted, p))
+}
+
 /// Percentile-bootstrap 95 % interval of the mean: the same for the same values and seed.
 /// `None` of nothing or with a NaN.
 pub(crate) fn bootstrap_ci95(values: &[f64], seed: u64) -> Option<(f64, f64)> {

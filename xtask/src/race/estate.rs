@@ -1,7 +1,7 @@
 //! Synthetic pairs of any size: an estate of many different floors, mapped twice.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 use nalgebra::{Point2, Vector2};
@@ -24,11 +24,13 @@ const HEADING: f64 = 0.6;
 /// From the middle of the target to that of the source, as shares of the target's sides.
 const SHIFT: [f64; 2] = [0.15, 0.1];
 
-/// Writes, for each size, a pair that matches and one of two estates into `folder`.
+/// Writes, for each size, a pair that matches and one of two estates, each into a folder of its own
+/// below `folder`; gives these.
 ///
 /// # Errors
 /// A file that cannot be written.
-pub(super) fn write_pairs(folder: &Path) -> anyhow::Result<()> {
+pub(super) fn write_pairs(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
+    let mut written = Vec::new();
     let mut of_target = Estate::new(1, 1);
     let mut of_sources = [("match", Estate::new(1, 2)), ("refuse", Estate::new(2, 2))];
     for size in SIZES {
@@ -37,11 +39,12 @@ pub(super) fn write_pairs(folder: &Path) -> anyhow::Result<()> {
             let target_from_source = frame_of_source(size);
             let source = of_source.map(target_from_source, size)?;
             let truth = (of_source.number == of_target.number).then_some(target_from_source);
-            let name = format!("{kind}-{}x{}", size.0, size.1);
-            write_pair(&folder.join(name), &target, &source, truth)?;
+            let pair = folder.join(format!("{kind}-{}x{}", size.0, size.1));
+            write_pair(&pair, &target, &source, truth)?;
+            written.push(pair);
         }
     }
-    Ok(())
+    Ok(written)
 }
 
 fn write_pair(

@@ -14,7 +14,7 @@ use anyhow::Context;
 
 use crate::report::{self, Table};
 use contestant::Contestant;
-use pair::{Pair, read_pairs};
+use pair::{Pair, folders_of_pairs, read_pairs};
 use score::Score;
 
 /// Times the command `ogm` and other tools on the same map pairs, and scores their answers.
@@ -36,8 +36,8 @@ pub(crate) struct Args {
     /// Largest synthetic map, in cells, that peers get too.
     #[arg(long, default_value_t = 4_000_000)]
     peer_cells: usize,
-    /// Where the synthetic pairs and the table of runs go.
-    #[arg(long, default_value = "target/race")]
+    /// Where the synthetic pairs go.
+    #[arg(long, default_value = "target/race/pairs")]
     out: PathBuf,
     /// Also write the tables into this document.
     #[arg(long)]
@@ -65,14 +65,14 @@ struct Outcome {
 pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
     let mut contestants = vec![Contestant::new("ogm align", &args.ours)?];
     contestants.extend(args.peers.iter().cloned());
-    let synthetic = args.out.join("pairs");
-    estate::write_pairs(&synthetic)?;
-    let race = |folder: &Path, peer_cells: usize| -> anyhow::Result<Vec<Raced>> {
-        let pairs = read_pairs(folder)?.into_iter();
+    let real = read_pairs(&folders_of_pairs(&args.pairs)?)?;
+    let synthetic = read_pairs(&estate::write_pairs(&args.out)?)?;
+    let race = |pairs: Vec<Pair>, peer_cells: usize| -> anyhow::Result<Vec<Raced>> {
+        let pairs = pairs.into_iter();
         pairs.map(|pair| race_on(pair, &contestants, args.repeat, peer_cells)).collect()
     };
-    let sized = race(&synthetic, args.peer_cells)?;
-    let real = race(&args.pairs, usize::MAX)?;
+    let sized = race(synthetic, args.peer_cells)?;
+    let real = race(real, usize::MAX)?;
 
     let names: Vec<&str> = contestants.iter().map(|one| one.name.as_str()).collect();
     let tables = tables::all(&names, &real, &sized);

@@ -44,9 +44,8 @@ struct TruthFile {
     tolerance_hint_deg: Option<f64>,
 }
 
-/// All pairs below `folder`, the smallest maps first: subfolders with `a.yaml`, `b.yaml` and
-/// `truth.json`.
-pub(super) fn read_pairs(folder: &Path) -> anyhow::Result<Vec<Pair>> {
+/// The folders below `folder` that hold a `truth.json`, by name.
+pub(super) fn folders_of_pairs(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(folder)
         .with_context(|| format!("cannot list the map pairs in {}", folder.display()))?;
     let mut folders: Vec<PathBuf> =
@@ -54,6 +53,11 @@ pub(super) fn read_pairs(folder: &Path) -> anyhow::Result<Vec<Pair>> {
     folders.retain(|path| path.join("truth.json").is_file());
     ensure!(!folders.is_empty(), "{} holds no pair with a truth.json", folder.display());
     folders.sort();
+    Ok(folders)
+}
+
+/// The pair in each folder (`a.yaml`, `b.yaml` and `truth.json`), the smallest maps first.
+pub(super) fn read_pairs(folders: &[PathBuf]) -> anyhow::Result<Vec<Pair>> {
     let mut pairs: Vec<Pair> =
         folders.iter().map(|path| read_pair(path)).collect::<Result<_, _>>()?;
     pairs.sort_by_key(|pair| pair.cells.iter().sum::<usize>());
@@ -108,7 +112,7 @@ fn centroid(map: &OccupancyGrid) -> Point2<f64> {
 
 #[cfg(test)]
 mod tests {
-    use super::{Pair, read_pairs};
+    use super::{Pair, folders_of_pairs, read_pairs};
     use nalgebra::Point2;
     use ogm_core::{GridFrame, OccupancyGrid, Se2};
     use std::path::Path;
@@ -132,7 +136,7 @@ mod tests {
         write(folder.path(), "large", "#..?\n#..?\n####", r#"{"match": false, "dx": null}"#);
         write(folder.path(), "small", "#.??\n....", truth);
         std::fs::create_dir(folder.path().join("no pair")).unwrap();
-        let pairs = read_pairs(folder.path()).unwrap();
+        let pairs = read_pairs(&folders_of_pairs(folder.path()).unwrap()).unwrap();
         let names: Vec<&str> = pairs.iter().map(|pair| pair.name.as_str()).collect();
         assert_eq!(names, ["small", "large"]);
         let [Pair { truth: Some(truth), cells, .. }, Pair { truth: None, .. }] = &pairs[..] else {
@@ -149,9 +153,9 @@ mod tests {
     #[test]
     fn a_pair_that_matches_nowhere_is_an_error() {
         let folder = tempfile::tempdir().unwrap();
-        assert!(read_pairs(folder.path()).is_err(), "no pairs");
+        assert!(folders_of_pairs(folder.path()).is_err(), "no pairs");
         write(folder.path(), "pair", "#.", r#"{"match": true, "dx": 1.0}"#);
-        let error = read_pairs(folder.path()).unwrap_err();
+        let error = read_pairs(&[folder.path().join("pair")]).unwrap_err();
         assert!(error.to_string().contains("says no transform"), "{error}");
     }
 }

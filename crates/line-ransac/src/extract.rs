@@ -56,14 +56,6 @@ pub struct Statistics {
     pub fallback_lines: usize,
 }
 
-impl Statistics {
-    /// Whether any line came about by the fallback.
-    #[must_use]
-    pub fn fallback_used(&self) -> bool {
-        self.fallback_lines > 0
-    }
-}
-
 /// The straight walls of `map` (Tsardoulias et al., section 4.1.1).
 ///
 /// Segments are in the map frame; their support counts sampled cells. Refused without two occupied

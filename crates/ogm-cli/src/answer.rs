@@ -26,9 +26,7 @@ impl Verdict {
     pub(crate) fn of(refusal: Option<&Refusal>) -> Self {
         match refusal {
             None => Self::Merged,
-            Some(
-                Refusal::SeveralPoses { .. } | Refusal::Rivals { .. } | Refusal::Ambiguous { .. },
-            ) => Self::Ambiguous,
+            Some(Refusal::SeveralPoses { .. } | Refusal::Ambiguous { .. }) => Self::Ambiguous,
             Some(_) => Self::NoMatch,
         }
     }

@@ -21,9 +21,8 @@
 //!
 //! What is in here is needed by at least two of the crates above it and has no knobs: types,
 //! invariants, and the grid kernels without parameters ([`l1_distance`], [`NearestCells`],
-//! [`warp_nearest`], [`Agreement`]).
+//! [`warp_nearest`]).
 
-mod agreement;
 mod angle;
 mod ascii;
 mod distance;
@@ -39,7 +38,6 @@ mod segment;
 mod tag;
 mod warp;
 
-pub use agreement::Agreement;
 pub use angle::{KFoldMean, mean_k_fold, undirected_difference, wrap_angle, wrap_period};
 pub use distance::{l1_distance, l1_spread};
 pub use error::GridError;

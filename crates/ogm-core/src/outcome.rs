@@ -147,12 +147,6 @@ pub enum Refusal {
         /// Probability needed.
         need: f64,
     },
-    /// Several transforms that lie apart pass every check, as in a building of equal rooms.
-    #[error("rivals: {poses} different transforms fit equally well; let the maps overlap more")]
-    Rivals {
-        /// Transforms that passed.
-        poses: usize,
-    },
     /// A refinement that left the neighbourhood of its start, or made it worse.
     #[error(
         "not converged: refinement ran away after {iterations} iterations with {rmse_m:.3} m between the walls; check the start"

@@ -75,9 +75,9 @@ const MAX_WINDOWS: usize = 4;
 /// verified (Saeedi et al., Fig. 1).
 ///
 /// Every hypothesis of a pair of segments is judged by its walls, the best go through the later
-/// blocks, and those that pass the verification are left. If they do not agree, the answer is
-/// [`Refusal::Rivals`]; a map without distinctive segments is refused, too. Equal input and seed
-/// give equal bits on any number of threads.
+/// blocks, and those that pass the verification are left. If they do not agree, each is as likely
+/// as the others and the answer is [`Refusal::SeveralPoses`]; a map without distinctive segments is
+/// refused, too. Equal input and seed give equal bits on any number of threads.
 ///
 /// # Errors
 /// Maps of different resolution, or a parameter out of range.
@@ -223,7 +223,11 @@ fn choose(
     let rivals = candidates.iter().filter(|one| one.verified && apart(one, &candidates[best]));
     match rivals.count() {
         0 => Ok(best),
-        others => Err(Some(Refusal::Rivals { poses: others + 1 })),
+        others => {
+            let poses = others + 1;
+            let probability = 1.0 / poses as f64;
+            Err(Some(Refusal::SeveralPoses { poses, probability, need: 1.0 }))
+        }
     }
 }
 

@@ -3,13 +3,15 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::OccupancyGrid;
-use ogm_vector::ogm_vector;
+use ogm_core::{OccupancyGrid, Segment};
+use ogm_vector::{angle_histogram, ogm_vector};
 
 use super::record::{Run, RunResult};
 use super::wall_direction::{errors_deg, heading_of};
 use super::{Measured, Timing};
-use crate::draw::{Chart, Histogram, Layer, Mark, Plan, Series, chart, histogram, plan};
+use crate::draw::{
+    Bars, Chart, Histogram, Layer, Mark, Plan, Series, bars, chart, histogram, plan,
+};
 use crate::report::{Figure, Image};
 
 /// Draws one extraction with the defaults, and the spread and the times of all.
@@ -41,6 +43,7 @@ pub(super) fn draw(
                 })?),
             });
         }
+        figures.push(by_direction(&extraction.segments));
         if let Some(vector) =
             ogm_vector(&extraction.segments, &ogm_vector::Params::default()).found()
         {
@@ -64,6 +67,29 @@ pub(super) fn draw(
     figures.push(by_heading(runs));
     figures.push(times(&measured.timings));
     Ok(figures)
+}
+
+/// How much wall runs in which direction, in bins of four degrees around those of the axes.
+fn by_direction(segments: &[Segment]) -> Figure {
+    let metres = angle_histogram(segments, 45);
+    let named = |bin: usize| {
+        if bin.is_multiple_of(11) {
+            format!("{}°", bin as f64 * 4.0 - 88.0)
+        } else {
+            String::new()
+        }
+    };
+    Figure {
+        name: "walls-by-direction".to_owned(),
+        caption: "Metres of wall of plan A by direction, from the x axis of its map.".to_owned(),
+        image: Image::Svg(bars(&Bars {
+            title: "Walls by direction".to_owned(),
+            y_label: "wall, m".to_owned(),
+            log_y: false,
+            groups: (0..metres.len()).map(named).collect(),
+            series: vec![("long and reliable".to_owned(), metres)],
+        })),
+    }
 }
 
 /// How long the extractions of X3a took.

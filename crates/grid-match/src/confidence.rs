@@ -2,6 +2,7 @@
 
 use nalgebra::Point2;
 
+use crate::evidence::NOT_COMPARABLE;
 use crate::search::Fit;
 use crate::translation::same_place;
 
@@ -11,6 +12,10 @@ const MODE_M: f64 = 0.75;
 const MODE_RAD: f64 = 0.1;
 /// Score of no pose at all.
 pub(crate) const FLOOR: f64 = 0.0;
+/// A larger lead over the second mode says no more.
+const MOST_LEAD: f64 = 6.0;
+/// A larger score says no more.
+const MOST_SCORE: f64 = 8.0;
 
 /// The best fit of every mode, best first.
 pub(crate) fn modes(mut fits: Vec<Fit>, centre: Point2<f64>) -> Vec<Fit> {
@@ -30,10 +35,32 @@ pub(crate) fn modes(mut fits: Vec<Fit>, centre: Point2<f64>) -> Vec<Fit> {
     modes
 }
 
-/// Probability that the mode at `index` is the right one of all modes and of no pose at all.
+/// Probability that the first of `modes` is right.
+///
+/// A logistic regression on simulated pairs: the lead over the second mode, the score itself, and
+/// against it the score of the second mode, for where one wrong pose fits well the building
+/// repeats itself, and the right pose may be one more that the maps do not show.
+pub(crate) fn best_probability(modes: &[Fit]) -> f64 {
+    let score = |index: usize| modes.get(index).map_or(NOT_COMPARABLE, |mode| mode.score);
+    let (best, second) = (score(0), score(1));
+    let lead = (best - second).min(MOST_LEAD);
+    let rival = second.max(FLOOR).ln_1p();
+    let log_odds = -1.787 + 0.543 * lead + 0.629 * best.min(MOST_SCORE) - 1.924 * rival;
+    1.0 / (1.0 + (-log_odds).exp())
+}
+
+/// Probability that the mode at `index` is the right one of all modes and of no pose at all; what
+/// the first leaves is shared by the others as their scores say.
 pub(crate) fn probability(modes: &[Fit], index: usize) -> f64 {
-    let highest = modes.iter().map(|mode| mode.score).fold(FLOOR, f64::max);
+    let best = best_probability(modes);
+    if index == 0 {
+        return best;
+    }
+    let others = &modes[1..];
+    let highest = others.iter().map(|mode| mode.score).fold(FLOOR, f64::max);
     let weight = |score: f64| (score - highest).exp();
-    let total: f64 = modes.iter().map(|mode| weight(mode.score)).sum();
-    weight(modes[index].score) / (total + weight(FLOOR))
+    let total: f64 = others.iter().map(|mode| weight(mode.score)).sum();
+    let share = (1.0 - best) * weight(modes[index].score) / (total + weight(FLOOR));
+    // Where several fit alike, what all of them lack is left to poses that were not found.
+    share.min(best)
 }

@@ -33,7 +33,8 @@ impl Correlator {
     pub(crate) fn new(first: &Channels, [width, height]: [usize; 2], overlap: usize) -> Self {
         let columns = fast_length((first.width + width).saturating_sub(overlap));
         let rows = fast_length((first.height + height).saturating_sub(overlap));
-        let (columns, rows) = (columns.max(first.width), rows.max(first.height));
+        let (columns, rows) =
+            (columns.max(first.width).max(width), rows.max(first.height).max(height));
         let mut planner = FftPlanner::new();
         let mut both =
             |length| [planner.plan_fft_forward(length), planner.plan_fft_inverse(length)];

@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Matrix3, Vector2};
 use ogm_core::Se2;
 
 use crate::prepare::PreparedMap;
-use crate::refine::{Points, Sides, normal_equations};
+use crate::refine::{POLISH_POINTS, Points, Sides, normal_equations};
 use crate::report::WeakDirection;
 
 /// Metres of wall over which errors of a map are one error: neighbouring points share beams,
@@ -23,7 +23,7 @@ pub(crate) fn covariance(
     target_local_from_source_local: &Se2,
     scale: f64,
 ) -> (Matrix3<f64>, Option<WeakDirection>) {
-    let points = Points { most: usize::MAX, sides: Sides::Facing };
+    let points = Points { most: POLISH_POINTS, sides: Sides::Facing };
     let normal = normal_equations(target, source, target_local_from_source_local, scale, points);
     let resolution = target.resolution().max(source.resolution());
     let measured = normal.residual / normal.weight.max(1e-9);
@@ -32,7 +32,10 @@ pub(crate) fn covariance(
     let repeats = 2.0 * (CORRELATED_M / target.spacing.max(source.spacing)).max(1.0);
     // A pose is never freer than the maps are large.
     let floor = Matrix3::from_diagonal_element(1e-6);
-    let information = normal.information / (variance * repeats) + floor;
+    let walls = [target, source].map(|map| map.walls.len());
+    let used: usize = walls.iter().map(|&walls| walls.min(POLISH_POINTS)).sum();
+    let stands_for = walls.iter().sum::<usize>() as f64 / used.max(1) as f64;
+    let information = normal.information * stands_for / (variance * repeats) + floor;
     let about_centre = information.try_inverse().unwrap_or_else(Matrix3::identity);
 
     let weak = weak_direction(&about_centre, target);

@@ -12,10 +12,10 @@
 //! let picture = "
 //!     ?####################################
 //!     ?#...........#......................#
+//!     ?#...........#.....###..............#
+//!     ?#...........#.....###..............#
 //!     ?#...........#......................#
-//!     ?#...........#......................#
-//!     ?#...........#......................#
-//!     ?#..................................#
+//!     ?#......................#######.....#
 //!     ?#..................................#
 //!     ?#...........#......................#
 //!     ?#...........#......................#
@@ -23,9 +23,9 @@
 //!     ?#######..##########..###############
 //!     ?#........................#.........#
 //!     ?#........................#.........#
-//!     ?#........................#.........#
-//!     ?#..................................#
-//!     ?#..................................#
+//!     ?#......#####.............#.........#
+//!     ?#......#####.......................#
+//!     ?#......#####.......................#
 //!     ?#........................#.........#
 //!     ?#####....................#.........#
 //!     ?#...#....................#.........#
@@ -52,26 +52,30 @@ mod confidence;
 mod correlate;
 mod covariance;
 mod error;
+mod evidence;
 mod lattice;
+mod log_odds;
 mod matching;
 mod params;
+mod patches;
 mod prepare;
 mod refine;
 mod report;
 mod rotation;
-mod score;
 mod search;
 mod smooth;
 mod spectrum;
+mod tally;
 mod translation;
+mod weigh;
 mod work;
 
 pub use error::MatchError;
+pub use evidence::{Evidence, Relaxed};
 pub use matching::{match_maps, match_prepared, score_pose};
 pub use params::{Effort, MatchParams, Prior};
 pub use prepare::PreparedMap;
 pub use report::{Hypothesis, MatchReport, WeakDirection};
-pub use score::Evidence;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -8,13 +8,15 @@ use crate::MatchError;
 use crate::bounds::Bounds;
 use crate::confidence::{FLOOR, modes, probability};
 use crate::covariance::covariance;
+use crate::evidence::Evidence;
 use crate::lattice::floor_index;
 use crate::params::{Effort, MatchParams};
 use crate::prepare::PreparedMap;
 use crate::refine::polish;
 use crate::report::{Hypothesis, MatchReport};
-use crate::score::{Evidence, Reach, evidence};
 use crate::search::{Fit, Search};
+use crate::tally::Reach;
+use crate::weigh::weigh;
 use crate::work::Work;
 
 /// Most hypotheses of a report.
@@ -95,7 +97,7 @@ pub fn score_pose(
     let target_local_from_source_local =
         target.map_from_local.inverse() * *target_from_source * source.map_from_local;
     let reach = Reach::at(target.resolution().max(source.resolution()));
-    Ok(evidence(target, source, &target_local_from_source_local, reach, usize::MAX))
+    Ok(weigh(target, source, &target_local_from_source_local, reach, usize::MAX))
 }
 
 fn too_little(map: &PreparedMap, params: &MatchParams) -> Option<Refusal> {
@@ -150,18 +152,19 @@ fn outcome(hypotheses: &[Hypothesis], resolution: f64, params: &MatchParams) -> 
     if best.probability >= params.accept {
         return Outcome::Found(best.target_from_source);
     }
-    let rivals = hypotheses.iter().filter(|other| other.score > FLOOR.max(best.score - 3.0));
-    let poses = rivals.count();
+    let poses = hypotheses.iter().filter(|other| other.score > FLOOR).count();
     let evidence = &best.evidence;
     let against = evidence.near_miss_m + evidence.conflict_m;
+    let (probability, need) = (best.probability, params.accept);
     Outcome::Refused(if poses > 1 {
-        let (probability, need) = (best.probability, params.accept);
         Refusal::SeveralPoses { poses, probability, need }
     } else if against > evidence.hit_m * 0.35 {
         let (conflicts, compared) = (cells(against), cells(against + evidence.hit_m));
         Refusal::Contradiction { conflicts, compared }
-    } else {
+    } else if evidence.hit_m < params.min_wall_m {
         Refusal::NoOverlap { have: cells(evidence.hit_m), need: cells(params.min_wall_m) }
+    } else {
+        Refusal::Unlikely { probability, need }
     })
 }
 

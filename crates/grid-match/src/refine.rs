@@ -6,10 +6,18 @@ use ogm_core::Se2;
 use crate::lattice::Slope;
 use crate::prepare::{PreparedMap, State, WallPoint};
 
+/// Beyond so many scales a wall weighs less than a thousandth.
+const FAR_SCALES: f64 = 6.0;
 /// Where the scale of a polish starts, metres.
 const POLISH_SCALE_M: f64 = 0.15;
-/// Steps of a polish.
+/// Most steps of a polish.
 const POLISH_STEPS: usize = 12;
+/// A polish ends with a step of its centre below this, cells.
+const SETTLED_CELLS: f64 = 1e-3;
+/// And a turn below this, radians.
+const SETTLED_RAD: f64 = 1e-6;
+/// Wall points of each map in a polish; more say the same.
+pub(crate) const POLISH_POINTS: usize = 20_000;
 
 /// Normal equations of the symmetric problem, about a centre.
 #[derive(Debug, Clone, Copy)]
@@ -52,10 +60,20 @@ impl Sides {
         if self == Self::Facing { 0.5 } else { 0.0 }
     }
 
-    /// How far wall of another map, at `at` with `normal`, is from the walls of `map`.
+    /// How far wall of another map, at `at` with `normal`, is from the walls of `map`, unless
+    /// that is too far to matter at `scale`.
     #[inline]
-    fn pull(self, map: &PreparedMap, at: Point2<f64>, normal: Vector2<f64>) -> Option<Slope> {
+    fn pull(
+        self,
+        map: &PreparedMap,
+        at: Point2<f64>,
+        normal: Vector2<f64>,
+        scale: f64,
+    ) -> Option<Slope> {
         let slope = map.lattice.slope(&map.distance, at)?;
+        if slope.value > FAR_SCALES * scale {
+            return None;
+        }
         if self == Self::Any {
             return Some(slope);
         }
@@ -92,6 +110,31 @@ pub(crate) fn refine(
     first_from_second
 }
 
+/// Lets `walls` of one map follow the walls of `on` alone.
+pub(crate) fn follow(
+    on: &PreparedMap,
+    walls: &[WallPoint],
+    start_on_from_map: Se2,
+    scales: &[f64],
+) -> Se2 {
+    let mean = walls.iter().map(|wall| wall.at.coords).sum::<Vector2<f64>>();
+    let mean = Point2::from(mean / walls.len().max(1) as f64);
+    let mut on_from_map = start_on_from_map;
+    for &scale in scales {
+        let centre = on_from_map * mean;
+        let mut sums = Sums { scale_sq: scale * scale, ..Sums::default() };
+        for &WallPoint { at, normal } in walls {
+            let place = on_from_map * at;
+            if let Some(slope) = Sides::NotOpposite.pull(on, place, on_from_map * normal, scale) {
+                sums.add(slope.value, slope.gradient, place - centre);
+            }
+        }
+        let Some(moved_from_on) = sums.into_normal(centre).motion(scale) else { break };
+        on_from_map = moved_from_on * on_from_map;
+    }
+    on_from_map
+}
+
 /// [`refine`] at scales that follow the residuals, so that what fits well is held to it: walls
 /// beyond twice the typical residual lose their say.
 pub(crate) fn polish(
@@ -100,7 +143,7 @@ pub(crate) fn polish(
     start_first_from_second: Se2,
 ) -> Se2 {
     let resolution = first.resolution().max(second.resolution());
-    let points = Points { most: usize::MAX, sides: Sides::Facing };
+    let points = Points { most: POLISH_POINTS, sides: Sides::Facing };
     let mut first_from_second = start_first_from_second;
     let mut scale = POLISH_SCALE_M.max(resolution);
     for _ in 0..POLISH_STEPS {
@@ -108,7 +151,15 @@ pub(crate) fn polish(
         let Some(moved_from_first) = normal.motion(scale) else { break };
         first_from_second = moved_from_first * first_from_second;
         let typical = (normal.residual / normal.weight.max(1e-9)).sqrt();
-        scale = scale.min((2.0 * typical).max(0.4 * resolution));
+        let next = scale.min((2.0 * typical).max(0.4 * resolution));
+        let step = (moved_from_first * normal.centre - normal.centre).norm();
+        let is_settled = step < SETTLED_CELLS * resolution
+            && moved_from_first.theta().abs() < SETTLED_RAD
+            && next > 0.99 * scale;
+        if is_settled {
+            break;
+        }
+        scale = next;
     }
     first_from_second
 }
@@ -126,14 +177,16 @@ pub(crate) fn normal_equations(
     let mut sums = Sums { scale_sq: scale * scale, ..Sums::default() };
     for &WallPoint { at, normal } in second.walls.iter().take(points.most) {
         let in_first = *first_from_second * at;
-        if let Some(slope) = points.sides.pull(first, in_first, *first_from_second * normal) {
+        if let Some(slope) = points.sides.pull(first, in_first, *first_from_second * normal, scale)
+        {
             sums.add(slope.value, slope.gradient, in_first - centre);
         }
     }
     let second_from_first = first_from_second.inverse();
     for &WallPoint { at, normal } in first.walls.iter().take(points.most) {
         let in_second = second_from_first * at;
-        if let Some(slope) = points.sides.pull(second, in_second, second_from_first * normal) {
+        if let Some(slope) = points.sides.pull(second, in_second, second_from_first * normal, scale)
+        {
             sums.add(slope.value, -(*first_from_second * slope.gradient), at - centre);
         }
     }

@@ -3,12 +3,15 @@
 use ogm_core::Se2;
 
 use crate::bounds::Bounds;
+use crate::evidence::Evidence;
+use crate::log_odds::rough_log_odds;
 use crate::params::Effort;
 use crate::prepare::PreparedMap;
 use crate::refine::{Points, Sides, refine};
 use crate::rotation;
-use crate::score::{Evidence, Reach, evidence, quick_score};
+use crate::tally::Reach;
 use crate::translation::{Candidate, CoarsePair, distinct};
+use crate::weigh::{weigh, weigh_as_one};
 use crate::work::Work;
 
 /// Scales of the first refinement, metres at a coarse cell of 0.2 m.
@@ -120,7 +123,8 @@ impl<'a> Search<'a> {
             let (first, second) = (self.first, self.second);
             let start_first_from_second = candidate.first_from_second;
             let first_from_second = refine(first, second, start_first_from_second, &scales, points);
-            let score = quick_score(first, second, &first_from_second, reach, COARSE_POINTS);
+            let evidence = weigh_as_one(first, second, &first_from_second, reach, COARSE_POINTS);
+            let score = rough_log_odds(&evidence);
             settled.push(Candidate { first_from_second, score });
         }
         settled.sort_by(|a, b| b.score.total_cmp(&a.score));
@@ -143,7 +147,7 @@ impl<'a> Search<'a> {
             if self.bounds.is_some_and(|bounds| !bounds.contains(&first_from_second)) {
                 continue;
             }
-            let evidence = evidence(first, second, &first_from_second, self.reach(), FINE_POINTS);
+            let evidence = weigh(first, second, &first_from_second, self.reach(), FINE_POINTS);
             self.fits.push(Fit { first_from_second, evidence, score: evidence.score() });
         }
     }

@@ -41,7 +41,8 @@ pub(crate) fn by_walk(
     let mut found = Found::scored(METHOD, outcome, Some(target_from_source), maps)?;
     let log_odds = found.hypotheses.first().map_or(f64::NEG_INFINITY, |best| best.score);
     if log_odds <= 0.0 {
-        found.outcome = Outcome::Refused(Refusal::Unlikely { log_odds });
+        let probability = 1.0 / (1.0 + (-log_odds).exp());
+        found.outcome = Outcome::Refused(Refusal::Unlikely { probability, need: 0.5 });
     }
     Ok(found)
 }

@@ -117,13 +117,15 @@ pub enum Refusal {
         /// Wall cells that lie where the other map knows.
         compared: usize,
     },
-    /// A search that always ends somewhere ended where the maps speak against it.
+    /// The best answer, without a rival, is not sure enough.
     #[error(
-        "unlikely: what the maps share gives the best transform log-odds of {log_odds:.1}, more than 0 needed; start closer or explore further"
+        "unlikely: the best transform is right with probability {probability:.2} where {need:.2} is needed; give a prior or explore further"
     )]
     Unlikely {
-        /// Log-odds that it is right against that none is.
-        log_odds: f64,
+        /// Probability that it is right.
+        probability: f64,
+        /// Least probability to believe it.
+        need: f64,
     },
     /// More than one answer fits.
     #[error(

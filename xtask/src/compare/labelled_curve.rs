@@ -8,7 +8,10 @@ use crate::stats::wilson_ci95;
 /// Edges of the bins; narrow where a verdict is decided.
 const EDGES: [f64; 11] = [0.0, 0.05, 0.2, 0.4, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 1.0];
 /// Pairs from which a bin is judged.
-const ENOUGH: usize = 100;
+const ENOUGH: f64 = 100.0;
+/// How much a floor that repeats itself counts where all floors are taken together: as many pairs
+/// of these are drawn as of other kinds, to measure them, but few buildings are like them.
+const REPEATING: f64 = 1.0 / 16.0;
 /// How far a bin may be off where its interval misses the diagonal.
 const OFF: f64 = 0.05;
 
@@ -16,19 +19,19 @@ const OFF: f64 = 0.05;
 struct Bin {
     low: f64,
     high: f64,
-    pairs: usize,
-    right: usize,
+    pairs: f64,
+    right: f64,
     /// Mean of what was said.
     said: f64,
 }
 
 impl Bin {
     fn observed(&self) -> f64 {
-        self.right as f64 / self.pairs as f64
+        self.right / self.pairs
     }
 
     fn interval(&self) -> (f64, f64) {
-        wilson_ci95(self.right, self.pairs)
+        wilson_ci95(rounded(self.right), rounded(self.pairs))
     }
 
     fn holds(&self) -> bool {
@@ -40,13 +43,19 @@ impl Bin {
 /// Adds table, figure and criteria to the section.
 pub(super) fn add(section: &mut Section, judged: &[Judged], quick: bool) {
     let sets = [
-        ("all", bins(judged, |_| true)),
-        ("floors that do not repeat", bins(judged, |one| !one.kind.repeats())),
-        ("floors that repeat", bins(judged, |one| one.kind.repeats())),
+        ("all floors", bins(judged, |one| if one.kind.repeats() { REPEATING } else { 1.0 })),
+        (
+            "floors that do not repeat",
+            bins(judged, |one| if one.kind.repeats() { 0.0 } else { 1.0 }),
+        ),
+        ("floors that repeat", bins(judged, |one| if one.kind.repeats() { 1.0 } else { 0.0 })),
     ];
     section.tables.push(Table {
         caption: "Probability of the best pose against how often it is right, 95 % intervals. \
-                  Pairs of parts that look alike and do not overlap are left out."
+                  Where \
+                  all floors are taken together, a pair of a floor that repeats counts one \
+                  sixteenth. Of floors that repeat, pairs of parts that do not overlap are left \
+                  out."
             .to_owned(),
         header: ["pairs of", "probability", "pairs", "mean probability", "right"]
             .map(str::to_owned)
@@ -59,28 +68,38 @@ pub(super) fn add(section: &mut Section, judged: &[Judged], quick: bool) {
     }
 }
 
-fn bins(judged: &[Judged], holds: impl Fn(&Judged) -> bool) -> Vec<Bin> {
-    let said: Vec<(f64, bool)> = judged
+/// `weight` says how many pairs a pair stands for.
+fn bins(judged: &[Judged], weight: impl Fn(&Judged) -> f64) -> Vec<Bin> {
+    let said: Vec<(f64, bool, f64)> = judged
         .iter()
-        .filter(|one| one.is_decidable() && holds(one))
-        .filter_map(|one| one.best.map(|best| (best.probability, best.is_right)))
+        .filter(|one| one.is_decidable() && weight(one) > 0.0)
+        .filter_map(|one| one.best.map(|best| (best.probability, best.is_right, weight(one))))
         .collect();
     EDGES
         .windows(2)
         .filter_map(|edges| {
             let [low, high] = [edges[0], edges[1]];
             let inside = |p: f64| p >= low && (p < high || high == 1.0);
-            let inside: Vec<_> = said.iter().filter(|(p, _)| inside(*p)).collect();
-            let pairs = inside.len();
-            (pairs > 0).then(|| Bin {
+            let inside: Vec<_> = said.iter().filter(|(p, _, _)| inside(*p)).collect();
+            let pairs: f64 = inside.iter().map(|(_, _, weight)| weight).sum();
+            (pairs > 0.0).then(|| Bin {
                 low,
                 high,
                 pairs,
-                right: inside.iter().filter(|(_, right)| *right).count(),
-                said: inside.iter().map(|(p, _)| p).sum::<f64>() / pairs as f64,
+                right: inside.iter().filter(|(_, right, _)| *right).map(|(_, _, w)| w).sum(),
+                said: inside.iter().map(|(p, _, weight)| p * weight).sum::<f64>() / pairs,
             })
         })
         .collect()
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a sum of weights, not below 0"
+)]
+fn rounded(weight: f64) -> usize {
+    weight.round() as usize
 }
 
 fn row(name: &str, bin: &Bin) -> Vec<String> {
@@ -88,7 +107,7 @@ fn row(name: &str, bin: &Bin) -> Vec<String> {
     vec![
         name.to_owned(),
         format!("{:.2}–{:.2}", bin.low, bin.high),
-        bin.pairs.to_string(),
+        format!("{:.0}", bin.pairs),
         format!("{:.3}", bin.said),
         format!("{:.3} [{low:.3}, {high:.3}]", bin.observed()),
     ]

@@ -1,0 +1,76 @@
+//! What is known about a pose, in metres of wall.
+
+use crate::log_odds::log_odds;
+
+/// What a pose has for it and against it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Evidence {
+    /// Wall of one map on wall of the other, metres, mean of both directions.
+    pub hit_m: f64,
+    /// Wall of one map close to wall of the other, but in its free space, metres.
+    pub near_miss_m: f64,
+    /// Wall of one map in free space of the other, far from any wall, metres.
+    pub conflict_m: f64,
+    /// Free in both, square metres.
+    pub free_m2: f64,
+    /// Known in both over known in the smaller one.
+    pub overlap: f64,
+    /// Of [`hit_m`](Self::hit_m), seen from the same side.
+    pub same_side_m: f64,
+    /// Of [`hit_m`](Self::hit_m), seen from opposite sides, as two rooms behind one wall do.
+    pub opposite_side_m: f64,
+    /// Metres of matched wall that resist a shift in the direction that walls resist least; near
+    /// zero in a corridor.
+    pub cross_m: f64,
+    /// Share of what both maps know that lies within a hit of some wall: how often a hit is chance.
+    pub chance: f64,
+    /// The walls once every part of a map may give way a little.
+    pub relaxed: Relaxed,
+}
+
+/// Walls of maps that may each be bent by drift: parts of one, about the size of a room, move to
+/// where they fit best on the other, up to half a metre.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Relaxed {
+    /// As [`Evidence::hit_m`].
+    pub hit_m: f64,
+    /// As [`Evidence::near_miss_m`].
+    pub near_miss_m: f64,
+    /// As [`Evidence::conflict_m`].
+    pub conflict_m: f64,
+    /// Root mean square by which the parts moved, metres.
+    pub moved_m: f64,
+}
+
+impl Evidence {
+    /// Whether enough of both maps lies on each other to say anything: free space on free space,
+    /// and walls seen from the same side. Wall without a side is noise, and where wall is
+    /// everywhere, as it seems on very coarse cells, wall on wall says nothing.
+    #[must_use]
+    pub fn is_comparable(&self) -> bool {
+        let sided = self.same_side_m + self.opposite_side_m;
+        self.free_m2 >= 0.5
+            && self.same_side_m >= 0.5
+            && self.same_side_m >= 0.4 * sided
+            && self.same_side_m >= 0.2 * self.hit_m
+            && self.chance <= 0.6
+    }
+
+    /// Share of the compared wall that fits.
+    #[must_use]
+    pub fn agreement(&self) -> f64 {
+        let compared = self.hit_m + self.near_miss_m + self.conflict_m;
+        if compared > 0.0 { self.hit_m / compared } else { 0.0 }
+    }
+
+    /// Log-odds that the pose is right against that no pose is; −12 for what cannot be compared.
+    #[must_use]
+    pub fn score(&self) -> f64 {
+        if self.is_comparable() { log_odds(self) } else { NOT_COMPARABLE }
+    }
+}
+
+/// Log-odds of a pose about which the maps say nothing.
+pub(crate) const NOT_COMPARABLE: f64 = -12.0;

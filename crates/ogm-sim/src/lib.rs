@@ -24,6 +24,8 @@
 //!   [`FloorPlan::parse`].
 //! - One map: [`survey`] maps a plan along both paths in a frame of any heading;
 //!   [`map_along_path`] sends one robot along any path.
+//! - [`labelled_pair`]: two maps of floors of many kinds, overlapping or not, with the transform
+//!   that is right, to measure and to calibrate a matcher.
 //! - Real maps: [`drive`] finds a path through their free space and [`tag_readings`] reads
 //!   simulated tags along it.
 //!

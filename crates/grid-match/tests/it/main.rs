@@ -1,6 +1,7 @@
 //! What a user of the matcher would notice.
 #![expect(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod bent;
 mod bounds;
 mod metamorphic;
 mod refusals;

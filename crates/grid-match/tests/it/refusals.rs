@@ -61,6 +61,8 @@ fn a_symmetric_room_is_ambiguous_and_both_poses_are_named() {
     }
     let total: f64 = report.hypotheses.iter().map(|hypothesis| hypothesis.probability).sum();
     assert!(total <= 1.0 + 1e-9 && report.hypotheses[0].probability < 0.6);
+    let descends = report.hypotheses.is_sorted_by(|a, b| a.probability >= b.probability);
+    assert!(descends, "{:?}", report.hypotheses);
 }
 
 #[test]
@@ -75,6 +77,16 @@ fn a_corridor_names_the_direction_in_which_it_slides() {
     assert!(along.abs() > 0.999, "{weak:?}");
     let evidence = report.hypotheses[0].evidence;
     assert!(evidence.cross_m < 0.05 * evidence.hit_m, "{evidence:?}");
+}
+
+#[test]
+fn strips_across_each_other_are_refused() {
+    let upright = draw(OFFICE, [-0.1, -0.1, 0.6, 9.1], 0.05, Se2::identity());
+    let lying = draw(OFFICE, [-0.1, -0.1, 8.1, 0.6], 0.05, Se2::identity());
+    for (target, source) in [(&upright, &lying), (&lying, &upright)] {
+        let outcome = matched(target, source).outcome;
+        assert!(outcome.refusal().is_some(), "{outcome:?}");
+    }
 }
 
 fn any_map() -> impl Strategy<Value = OccupancyGrid> {

@@ -14,8 +14,8 @@ const MODE_RAD: f64 = 0.1;
 pub(crate) const FLOOR: f64 = 0.0;
 /// A larger lead over the second mode says no more.
 const MOST_LEAD: f64 = 6.0;
-/// Taken off the log-odds, for a wrong merge costs more than a refusal.
-const CAUTION: f64 = 0.25;
+/// Taken off the log-odds of a pose that has support, for a wrong merge costs more than a refusal.
+const CAUTION: f64 = 0.3;
 /// A larger score says no more.
 const MOST_SCORE: f64 = 8.0;
 
@@ -48,8 +48,9 @@ pub(crate) fn best_probability(modes: &[Fit]) -> f64 {
     let lead = (best - second).min(MOST_LEAD);
     let (doubt, support) = (best.min(FLOOR), best.clamp(FLOOR, MOST_SCORE));
     let rival = second.max(FLOOR).ln_1p();
+    let caution = CAUTION * support.min(1.0);
     let log_odds =
-        -1.459 + 0.601 * lead + 0.902 * doubt + 0.395 * support - 1.409 * rival - CAUTION;
+        -1.459 + 0.601 * lead + 0.902 * doubt + 0.395 * support - 1.409 * rival - caution;
     1.0 / (1.0 + (-log_odds).exp())
 }
 

@@ -10,7 +10,7 @@ use super::{Args, Measured, labelled_curve, labelled_tables, progress};
 
 /// Where the seeds of this experiment begin: the weights of the matcher were fitted on smaller
 /// ones.
-const FIRST_SEED: u64 = 2_000_000;
+const FIRST_SEED: u64 = 3_000_000;
 /// Relations of the pairs of one floor kind and seed.
 const RELATIONS: [Relation; 4] =
     [Relation::Overlapping, Relation::Overlapping, Relation::Unrelated, Relation::Apart];

@@ -86,7 +86,10 @@ fn bins(judged: &[Judged], weight: impl Fn(&Judged) -> f64) -> Vec<Bin> {
                 low,
                 high,
                 pairs,
-                right: inside.iter().filter(|(_, right, _)| *right).map(|(_, _, w)| w).sum(),
+                right: inside
+                    .iter()
+                    .map(|(_, right, weight)| if *right { *weight } else { 0.0 })
+                    .sum(),
                 said: inside.iter().map(|(p, _, weight)| p * weight).sum::<f64>() / pairs,
             })
         })

@@ -2,7 +2,7 @@
 
 use grid_match::{MatchParams, match_maps};
 use ogm_core::Refusal;
-use ogm_sim::{FloorKind, LabelledPair, PairTruth, Relation, labelled_pair};
+use ogm_sim::{FloorKind, LabelledPair, PairTruth, Relation, SimError, labelled_pair};
 use rayon::prelude::*;
 
 use super::record::{Run, RunResult, TransformError};
@@ -78,10 +78,12 @@ pub(super) fn run(args: &Args) -> anyhow::Result<Measured> {
     let judged: Vec<Option<Judged>> = drawn
         .par_iter()
         .map(|&(kind, relation, seed)| {
-            let pair = labelled_pair(kind, relation, seed).ok();
-            let judged = pair.map(|pair| judge(kind, relation, seed, &pair)).transpose();
             bar.inc(1);
-            judged
+            match labelled_pair(kind, relation, seed) {
+                Ok(pair) => judge(kind, relation, seed, &pair).map(Some),
+                Err(SimError::NoSuchPair | SimError::BlockedRoute { .. }) => Ok(None),
+                Err(error) => Err(error.into()),
+            }
         })
         .collect::<anyhow::Result<_>>()?;
     bar.finish_and_clear();

@@ -15,6 +15,7 @@ mod draw;
 mod fixtures;
 #[cfg(test)]
 mod layers;
+mod map_pair;
 mod race;
 mod report;
 mod stats;

@@ -14,7 +14,6 @@ mod method_tables;
 mod methods;
 mod output;
 mod pair_figures;
-mod pair_input;
 mod pair_tags;
 mod pairs;
 mod random_walk;

@@ -3,7 +3,7 @@
 use ogm_core::Se2;
 use ogm_view::{overlay, png};
 
-use super::pair_input::MapPair;
+use crate::map_pair::MapPair;
 use crate::report::{Figure, Image};
 
 /// One overlay for each pair that was merged.

@@ -5,7 +5,7 @@ use ogm_core::{ClassThresholds, OccupancyGrid, Refusal, TagEstimate};
 use ogm_sim::{DriveParams, TagParams, drive, tag_readings};
 use rfid_loc::{FilterParams, localise};
 
-use super::pair_input::MapPair;
+use crate::map_pair::MapPair;
 
 /// Tags are placed where both robots come this near, metres: a tag that nobody passes is none.
 const PASSING: f64 = 2.0;

@@ -9,10 +9,10 @@ use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::evaluation::Overlap;
 use super::methods::MATCH;
-use super::pair_input::{MapPair, Truth, read_pairs};
 use super::pair_tags::localised_tags;
 use super::record::{Run, RunResult, TransformError, pose_error};
 use super::{Args, Measured, pair_figures, progress};
+use crate::map_pair::{MapPair, Truth, read_pairs};
 use crate::report::{Criterion, Section, Table};
 
 const METHODS: [(&str, Method); 3] =

@@ -12,11 +12,11 @@ use rand_chacha::ChaCha8Rng;
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::evaluation::Overlap;
-use super::pair_input::{MapPair, Truth, read_pairs};
 use super::random_walk::OVERLAP;
 use super::random_walk_tables::share_of;
 use super::record::{Run, RunResult, TransformError, pose_error};
 use super::{Args, progress};
+use crate::map_pair::{MapPair, Truth, read_pairs};
 use crate::report::{Figure, Image, Table};
 
 /// Largest error of a start along x and y, metres, and of its turn, degrees.

@@ -10,10 +10,10 @@ use radon_merge::{RadonMatch, RadonParams};
 use rayon::iter::{IntoParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::evaluation::Overlap;
-use super::pair_input::{MapPair, read_pairs};
 use super::record::{Run, RunResult, TransformError, pose_error};
 use super::segment_merge::outcome_text;
 use super::{Args, Measured, Timing, progress};
+use crate::map_pair::{MapPair, read_pairs};
 use crate::report::{Criterion, Section, Table};
 use crate::stats::wilson_ci95;
 

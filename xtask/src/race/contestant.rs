@@ -1,13 +1,14 @@
 //! One command of the race, and one run of it.
 
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::{Command, Stdio};
 
 use anyhow::{Context, ensure};
 use wait4::Wait4;
 
 use super::answer::Answer;
+use crate::map_pair::Files;
 
 /// What keeps the usual numeric libraries to one thread.
 const ONE_THREAD: [&str; 4] =
@@ -19,15 +20,6 @@ pub(super) struct Contestant {
     pub(super) name: String,
     /// The program and its arguments, with `{a}`, `{b}`, `{a_pgm}` and `{b_pgm}` in them.
     words: Vec<String>,
-}
-
-/// The files of a pair.
-#[derive(Debug, Clone)]
-pub(super) struct Files {
-    pub(super) a: PathBuf,
-    pub(super) b: PathBuf,
-    pub(super) a_image: PathBuf,
-    pub(super) b_image: PathBuf,
 }
 
 /// One run of a command.
@@ -114,7 +106,8 @@ fn text(pipe: Option<impl Read>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Contestant, Files};
+    use super::Contestant;
+    use crate::map_pair::Files;
 
     fn files() -> Files {
         let file = |name: &str| std::path::Path::new("some maps").join(name);

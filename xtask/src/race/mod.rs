@@ -12,9 +12,10 @@ use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
+use crate::map_pair::folders_of_pairs;
 use crate::report::{self, Table};
 use contestant::Contestant;
-use pair::{Pair, folders_of_pairs, read_pairs};
+use pair::{Pair, read_pairs};
 use score::Score;
 
 /// Times the command `ogm` and other tools on the same map pairs, and scores their answers.

@@ -1,13 +1,11 @@
-//! Map pairs on disk, and the truth about them.
+//! What the race needs of a pair of maps.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
-use anyhow::{Context, ensure};
 use nalgebra::Point2;
-use ogm_core::{OccupancyGrid, Se2};
-use serde::Deserialize;
+use ogm_core::Se2;
 
-use super::contestant::Files;
+use crate::map_pair::{Files, MapPair, read_pair};
 
 /// Two maps as files, and what an answer about them is measured by.
 #[derive(Debug, Clone)]
@@ -34,85 +32,32 @@ pub(super) struct Truth {
     pub(super) tolerance: f64,
 }
 
-#[derive(Debug, Deserialize)]
-struct TruthFile {
-    r#match: bool,
-    dx: Option<f64>,
-    dy: Option<f64>,
-    theta_deg: Option<f64>,
-    tolerance_hint_m: Option<f64>,
-    tolerance_hint_deg: Option<f64>,
-}
-
-/// The folders below `folder` that hold a `truth.json`, by name.
-pub(super) fn folders_of_pairs(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
-    let entries = std::fs::read_dir(folder)
-        .with_context(|| format!("cannot list the map pairs in {}", folder.display()))?;
-    let mut folders: Vec<PathBuf> =
-        entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<_, _>>()?;
-    folders.retain(|path| path.join("truth.json").is_file());
-    ensure!(!folders.is_empty(), "{} holds no pair with a truth.json", folder.display());
-    folders.sort();
-    Ok(folders)
-}
-
-/// The pair in each folder (`a.yaml`, `b.yaml` and `truth.json`), the smallest maps first.
+/// The pair in each folder, the smallest maps first.
 pub(super) fn read_pairs(folders: &[PathBuf]) -> anyhow::Result<Vec<Pair>> {
     let mut pairs: Vec<Pair> =
-        folders.iter().map(|path| read_pair(path)).collect::<Result<_, _>>()?;
+        folders.iter().map(|path| Ok(Pair::of(read_pair(path)?))).collect::<anyhow::Result<_>>()?;
     pairs.sort_by_key(|pair| pair.cells.iter().sum::<usize>());
     Ok(pairs)
 }
 
-fn read_pair(folder: &Path) -> anyhow::Result<Pair> {
-    let path = folder.join("truth.json");
-    let text = std::fs::read_to_string(&path)
-        .with_context(|| format!("cannot read {}", path.display()))?;
-    let file: TruthFile =
-        serde_json::from_str(&text).with_context(|| format!("in {}", path.display()))?;
-    let [a, b] = ["a.yaml", "b.yaml"].map(|name| folder.join(name));
-    let (target, source) = (ogm_io::read_map(&a)?, ogm_io::read_map(&b)?);
-    let truth = if file.r#match {
-        let truth = file.truth(&target.map, &source.map);
-        Some(truth.with_context(|| format!("{} says no transform", path.display()))?)
-    } else {
-        None
-    };
-    Ok(Pair {
-        name: folder.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
-        cells: [&target.map, &source.map].map(|map| map.width() * map.height()),
-        files: Files { a, b, a_image: target.image, b_image: source.image },
-        truth,
-    })
-}
-
-impl TruthFile {
-    fn truth(&self, target: &OccupancyGrid, source: &OccupancyGrid) -> Option<Truth> {
-        Some(Truth {
-            target_from_source: Se2::new(self.dx?, self.dy?, self.theta_deg?.to_radians()),
-            source_centroid: centroid(source),
-            target_resolution: target.frame().resolution(),
-            tolerance_m: self.tolerance_hint_m.unwrap_or(0.0).max(0.25),
-            tolerance: self.tolerance_hint_deg.unwrap_or(0.0).max(1.0).to_radians(),
-        })
+impl Pair {
+    fn of(maps: MapPair) -> Self {
+        let truth = maps.truth.map(|truth| Truth {
+            target_from_source: truth.target_from_source,
+            source_centroid: maps.source_centroid(),
+            target_resolution: maps.target.frame().resolution(),
+            tolerance_m: truth.tolerance_m,
+            tolerance: truth.tolerance,
+        });
+        let cells = [&maps.target, &maps.source].map(|map| map.width() * map.height());
+        Self { name: maps.name, files: maps.files, cells, truth }
     }
-}
-
-/// Of the known cells.
-fn centroid(map: &OccupancyGrid) -> Point2<f64> {
-    let (mut sum, mut count) = (Point2::origin(), 0_usize);
-    for (index, cell) in map.cells().indexed() {
-        if cell.is_known() {
-            sum += map.frame().cell_centre(index).coords;
-            count += 1;
-        }
-    }
-    sum / count.max(1) as f64
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{Pair, folders_of_pairs, read_pairs};
+    use super::{Pair, read_pairs};
+    use crate::map_pair::folders_of_pairs;
     use nalgebra::Point2;
     use ogm_core::{GridFrame, OccupancyGrid, Se2};
     use std::path::Path;

@@ -152,7 +152,7 @@ pub(super) fn line(raced: &Raced) -> String {
 #[cfg(test)]
 mod tests {
     use super::{Outcome, Raced, standings};
-    use crate::race::contestant::Files;
+    use crate::map_pair::Files;
     use crate::race::pair::{Pair, Truth};
     use crate::race::score::Score;
     use nalgebra::Point2;

@@ -1,8 +1,8 @@
-//! Real map pairs with their truth, and the tags that they are given.
+//! Pairs of map files with the truth about them.
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, ensure};
 use nalgebra::Point2;
 use ogm_core::{ClassThresholds, NearestCells, OccupancyGrid, Se2};
 use serde::Deserialize;
@@ -11,9 +11,19 @@ use serde::Deserialize;
 #[derive(Debug)]
 pub(crate) struct MapPair {
     pub(crate) name: String,
+    pub(crate) files: Files,
     pub(crate) target: OccupancyGrid,
     pub(crate) source: OccupancyGrid,
     pub(crate) truth: Option<Truth>,
+}
+
+/// The files of a pair.
+#[derive(Debug, Clone)]
+pub(crate) struct Files {
+    pub(crate) a: PathBuf,
+    pub(crate) b: PathBuf,
+    pub(crate) a_image: PathBuf,
+    pub(crate) b_image: PathBuf,
 }
 
 /// The true transform and how exactly it is known.
@@ -39,40 +49,54 @@ struct TruthFile {
     kind: Option<String>,
 }
 
-/// All pairs below `folder`, by name: subfolders with `a.yaml`, `b.yaml` and `truth.json`.
+/// All pairs below `folder`, by name.
 pub(crate) fn read_pairs(folder: &Path) -> anyhow::Result<Vec<MapPair>> {
+    folders_of_pairs(folder)?.iter().map(|path| read_pair(path)).collect()
+}
+
+/// The folders below `folder` that hold a `truth.json`, by name.
+pub(crate) fn folders_of_pairs(folder: &Path) -> anyhow::Result<Vec<PathBuf>> {
     let entries = std::fs::read_dir(folder)
         .with_context(|| format!("cannot list the map pairs in {}", folder.display()))?;
     let mut folders: Vec<PathBuf> =
         entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<_, _>>()?;
     folders.retain(|path| path.join("truth.json").is_file());
     folders.sort();
-    anyhow::ensure!(
+    ensure!(
         !folders.is_empty(),
         "{} holds no map pair: expected folders with a.yaml, b.yaml and truth.json",
         folder.display()
     );
-    folders.iter().map(|path| read_pair(path)).collect()
+    Ok(folders)
 }
 
-fn read_pair(folder: &Path) -> anyhow::Result<MapPair> {
-    let read = |name: &str| -> anyhow::Result<OccupancyGrid> {
-        Ok(ogm_io::read_map(&folder.join(name))?.map)
-    };
+/// The pair in a folder: `a.yaml`, `b.yaml` and `truth.json`.
+pub(crate) fn read_pair(folder: &Path) -> anyhow::Result<MapPair> {
     let path = folder.join("truth.json");
     let text = std::fs::read_to_string(&path)
         .with_context(|| format!("cannot read {}", path.display()))?;
     let file: TruthFile =
         serde_json::from_str(&text).with_context(|| format!("in {}", path.display()))?;
-    let name = folder.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned());
-    Ok(MapPair { name, target: read("a.yaml")?, source: read("b.yaml")?, truth: file.truth() })
+    let truth = if file.r#match {
+        Some(file.truth().with_context(|| format!("{} says no transform", path.display()))?)
+    } else {
+        None
+    };
+    let [a, b] = ["a.yaml", "b.yaml"].map(|name| folder.join(name));
+    let (target, source) = (ogm_io::read_map(&a)?, ogm_io::read_map(&b)?);
+    Ok(MapPair {
+        name: folder.file_name().map_or_else(String::new, |n| n.to_string_lossy().into_owned()),
+        files: Files { a, b, a_image: target.image, b_image: source.image },
+        target: target.map,
+        source: source.map,
+        truth,
+    })
 }
 
 impl TruthFile {
     fn truth(&self) -> Option<Truth> {
-        let target_from_source = Se2::new(self.dx?, self.dy?, self.theta_deg?.to_radians());
-        self.r#match.then(|| Truth {
-            target_from_source,
+        Some(Truth {
+            target_from_source: Se2::new(self.dx?, self.dy?, self.theta_deg?.to_radians()),
             tolerance_m: self.tolerance_hint_m.unwrap_or(0.0).max(0.25),
             tolerance: self.tolerance_hint_deg.unwrap_or(0.0).max(1.0).to_radians(),
             exact: self.kind.as_deref() == Some("log-segments"),

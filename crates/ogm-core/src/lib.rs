@@ -33,6 +33,9 @@ mod length;
 mod nearest;
 mod occupancy;
 mod outcome;
+mod progress;
+mod relative_pose;
+mod robot;
 mod se2;
 mod segment;
 mod tag;
@@ -50,6 +53,9 @@ pub use occupancy::{
     probability_from_log_odds,
 };
 pub use outcome::{Outcome, Refusal};
+pub use progress::{Cancelled, Progress, Stage};
+pub use relative_pose::RelativePose;
+pub use robot::RobotId;
 pub use se2::Se2;
 pub use segment::Segment;
 pub use tag::{TagEstimate, TagReading};

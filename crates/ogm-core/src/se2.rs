@@ -1,5 +1,6 @@
 //! Rigid motions of the plane.
 
+use std::fmt;
 use std::ops::Mul;
 
 use nalgebra::{Isometry2, Point2, Vector2, Vector3};
@@ -117,6 +118,24 @@ fn half_turn_factors(theta: f64) -> (f64, f64) {
     }
 }
 
+/// To the millimetre and the hundredth of a degree, `x 1.250 m, y -0.300 m, theta 90.00 deg`;
+/// another precision, as in `{:.6}`, is that of the metres and one digit less of the degrees.
+impl fmt::Display for Se2 {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = f.precision().unwrap_or(3);
+        let angle_digits = digits.saturating_sub(1);
+        let [x, y] = [self.x(), self.y()].map(|metres| unsigned_zero(metres, digits));
+        let theta = unsigned_zero(self.theta().to_degrees(), angle_digits);
+        write!(f, "x {x:.digits$} m, y {y:.digits$} m, theta {theta:.angle_digits$} deg")
+    }
+}
+
+/// Zero where `value` prints as a negative zero with this many digits.
+fn unsigned_zero(value: f64, digits: usize) -> f64 {
+    let half = 0.5 * 10_f64.powi(-i32::try_from(digits).unwrap_or(i32::MAX));
+    if value.abs() < half { 0.0 } else { value }
+}
+
 impl Mul for Se2 {
     type Output = Self;
 
@@ -221,6 +240,13 @@ mod tests {
             let closed = Se2::exp(Vector3::new(2.0, -1.0, angle * 1.000_000_2));
             assert!(distance(series, closed) < 5e-10, "jump at {angle}");
         }
+    }
+
+    #[test]
+    fn it_prints_metres_and_degrees_and_no_negative_zero() {
+        let pose = Se2::new(1.25, -0.0004, PI / 2.0);
+        assert_eq!(pose.to_string(), "x 1.250 m, y 0.000 m, theta 90.00 deg");
+        assert_eq!(format!("{pose:.4}"), "x 1.2500 m, y -0.0004 m, theta 90.000 deg");
     }
 
     #[test]

@@ -3,8 +3,8 @@
 use crate::Ending;
 use crate::args::AlignArgs;
 use crate::input::Input;
-use crate::progress::Progress;
-use crate::search::{Robot, check, search};
+use crate::progress::Bar;
+use crate::search::{check, search};
 use crate::tags::logs_of;
 use crate::{terminal, text};
 
@@ -15,9 +15,8 @@ pub(crate) fn run(args: &AlignArgs) -> anyhow::Result<Ending> {
     let target = Input::read(&args.target, quiet)?;
     let source = Input::read(&args.source, quiet)?;
     let answer = {
-        let _progress = Progress::start("aligning", quiet);
-        let target = Robot { input: &target, log: logs[0].as_ref() };
-        search(target, Robot { input: &source, log: logs[1].as_ref() }, &args.search)?
+        let bar = Bar::start("aligning", quiet);
+        search([&target, &source], &logs, &args.search, &bar)?
     };
     let text = if args.search.json {
         serde_json::to_string_pretty(&answer)? + "\n"
@@ -25,5 +24,5 @@ pub(crate) fn run(args: &AlignArgs) -> anyhow::Result<Ending> {
         text::pair(&answer)
     };
     terminal::result(&text)?;
-    Ok(answer.verdict.ending())
+    Ok(answer.ending())
 }

@@ -1,12 +1,12 @@
 //! `ogm apply`: a map in another frame.
 
 use anyhow::Context;
-use grid_merge::{MergeParams, transform_grid};
+use grid_merge::{FusionParams, transform_grid};
 use ogm_io::{WriteOptions, write_map};
 
 use crate::args::ApplyArgs;
 use crate::input::Input;
-use crate::progress::Progress;
+use crate::progress::Bar;
 use crate::{Ending, output, terminal, text};
 
 pub(crate) fn run(args: &ApplyArgs) -> anyhow::Result<Ending> {
@@ -14,8 +14,8 @@ pub(crate) fn run(args: &ApplyArgs) -> anyhow::Result<Ending> {
     let image = output::image_of(&args.output);
     output::check(&[&args.output, &image], &input.paths(), args.force)?;
     let moved = {
-        let _progress = Progress::start("moving", args.quiet);
-        transform_grid(input.map(), &args.transform.into(), &MergeParams::default())
+        let bar = Bar::start("moving", args.quiet);
+        transform_grid(input.map(), &args.transform, &FusionParams::default(), &bar)
             .with_context(|| format!("cannot move {} by --transform", input.name()))?
     };
     let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };

@@ -3,15 +3,17 @@
 use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
-use grid_merge::FusionRule;
+use ogm_core::Se2;
+use ogm_merge::{FusionRule, Method, TagMethod};
 
-use crate::pose::{Pose, Sigma};
+use crate::pose::{Sigma, transform};
 
 const EXIT_CODES: &str = "Exit codes:
   0  done; for align and merge: the maps match
   1  a file that cannot be read or written, or an invalid one
   2  a command line that cannot be meant
-  3  ran, and refused to match the maps";
+  3  ran, and refused to match the maps
+  130  ended by Ctrl-C; nothing is written";
 
 /// Aligns and merges the occupancy grid maps of robot teams, or says why not.
 #[derive(Debug, Parser)]
@@ -81,7 +83,7 @@ pub(crate) struct MergeArgs {
 #[derive(Debug, Args)]
 pub(crate) struct SearchArgs {
     /// How the transform is found; auto is rfid3 where three tags are known well enough in both
-    /// maps, else match
+    /// maps, else match, which also stands in where rfid3 refuses
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: MethodArg,
     /// Tag readings of a map, repeatable; CSV with the header tag_id,robot_x_m,robot_y_m,range_m,
@@ -90,7 +92,8 @@ pub(crate) struct SearchArgs {
     pub(crate) tags: Vec<String>,
     /// A transform that is already believed: maps points of B into A (match and carpin only)
     #[arg(long, value_name = "X,Y,DEG", allow_hyphen_values = true, requires = "prior_sigma")]
-    pub(crate) prior: Option<Pose>,
+    #[arg(value_parser = transform)]
+    pub(crate) prior: Option<Se2>,
     /// One standard deviation of the prior; the search is bounded at three
     #[arg(long, value_name = "M,DEG", allow_hyphen_values = true, requires = "prior")]
     pub(crate) prior_sigma: Option<Sigma>,
@@ -124,8 +127,8 @@ pub(crate) struct ApplyArgs {
     #[arg(value_name = "B.yaml")]
     pub(crate) map: PathBuf,
     /// Maps points of the map into the frame that it is written in
-    #[arg(long, value_name = "X,Y,DEG", allow_hyphen_values = true)]
-    pub(crate) transform: Pose,
+    #[arg(long, value_name = "X,Y,DEG", allow_hyphen_values = true, value_parser = transform)]
+    pub(crate) transform: Se2,
     /// The moved map; its image goes beside it
     #[arg(short, long, value_name = "OUT.yaml")]
     pub(crate) output: PathBuf,
@@ -147,7 +150,8 @@ pub(crate) struct ViewArgs {
     pub(crate) source: Option<PathBuf>,
     /// Maps points of B into A
     #[arg(long, value_name = "X,Y,DEG", allow_hyphen_values = true, requires = "source")]
-    pub(crate) transform: Option<Pose>,
+    #[arg(value_parser = transform)]
+    pub(crate) transform: Option<Se2>,
     /// The picture
     #[arg(short, long, value_name = "OUT.png")]
     pub(crate) output: PathBuf,
@@ -168,6 +172,8 @@ pub(crate) enum MethodArg {
     Match,
     /// By three tags
     Rfid1,
+    /// By three tags, in the least-squares sense
+    Rfid1b,
     /// Rotation by walls and tags, position by the surest tag
     Rfid2,
     /// As rfid2, then refined on the walls
@@ -176,6 +182,21 @@ pub(crate) enum MethodArg {
     Carpin,
     /// By wall segments that look alike, then the Radon transform
     Radon,
+}
+
+impl From<MethodArg> for Method {
+    fn from(method: MethodArg) -> Self {
+        match method {
+            MethodArg::Auto => Self::Auto,
+            MethodArg::Match => Self::Match,
+            MethodArg::Rfid1 => Self::Tags(TagMethod::Rfid1),
+            MethodArg::Rfid1b => Self::Tags(TagMethod::Rfid1b),
+            MethodArg::Rfid2 => Self::Tags(TagMethod::Rfid2),
+            MethodArg::Rfid3 => Self::Tags(TagMethod::Rfid3),
+            MethodArg::Carpin => Self::Carpin,
+            MethodArg::Radon => Self::Radon,
+        }
+    }
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]

@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-use ogm_core::{CellClass, ClassThresholds, OccupancyGrid};
+use ogm_core::{CellClass, ClassThresholds, OccupancyGrid, Se2};
 use ogm_io::MapMode;
+use ogm_merge::PoseDegrees;
 use serde::Serialize;
 
 use crate::answer::SCHEMA;
 use crate::args::InfoArgs;
 use crate::input::Input;
-use crate::pose::Pose;
-use crate::progress::Progress;
+use crate::progress::Wheel;
 use crate::{Ending, terminal};
 
 #[derive(Debug, Serialize)]
@@ -22,7 +22,7 @@ struct Info {
     width: usize,
     height: usize,
     resolution_m: f64,
-    origin: Pose,
+    origin: PoseDegrees,
     mode: &'static str,
     negate: bool,
     occupied_thresh: f64,
@@ -42,7 +42,7 @@ struct Counts {
 
 pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<Ending> {
     let input = {
-        let _progress = Progress::start("reading", false);
+        let _progress = Wheel::start("reading", false);
         Input::read_silently(&args.map)?
     };
     let info = Info::of(&input);
@@ -98,7 +98,7 @@ impl Info {
             self.width,
             self.height,
             self.resolution_m,
-            self.origin,
+            Se2::from(self.origin),
             self.mode,
             self.occupied_thresh,
             self.free_thresh,

@@ -10,7 +10,7 @@ use ogm_io::{LoadedMap, read_map};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
-use crate::progress::Progress;
+use crate::progress::Wheel;
 use crate::terminal;
 
 /// Which map a report is about.
@@ -34,7 +34,7 @@ impl Input {
     /// Reads a map; says what is suspicious about it unless `quiet`.
     pub(crate) fn read(yaml: &Path, quiet: bool) -> anyhow::Result<Self> {
         let input = {
-            let _progress = Progress::start("reading", quiet);
+            let _progress = Wheel::start("reading", quiet);
             Self::read_silently(yaml)?
         };
         if !quiet {

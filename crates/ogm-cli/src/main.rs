@@ -6,9 +6,9 @@ mod align;
 mod answer;
 mod apply;
 mod args;
-mod found;
 mod info;
 mod input;
+mod interrupt;
 mod merge;
 mod output;
 mod pose;
@@ -17,13 +17,15 @@ mod search;
 mod tags;
 mod terminal;
 mod text;
-mod untagged;
 mod usage;
 mod view;
 
 use std::process::ExitCode;
 
 use clap::Parser;
+use grid_merge::FusionError;
+use ogm_core::Cancelled;
+use ogm_merge::MergeError;
 
 use crate::args::{Cli, Command};
 use crate::usage::UsageError;
@@ -37,13 +39,13 @@ enum Ending {
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
-    let ended = match &cli.command {
+    let ended = interrupt::install().and_then(|()| match &cli.command {
         Command::Align(args) => align::run(args),
         Command::Merge(args) => merge::run(args),
         Command::Info(args) => info::run(args),
         Command::Apply(args) => apply::run(args),
         Command::View(args) => view::run(args),
-    };
+    });
     match ended {
         Ok(Ending::Done) => ExitCode::SUCCESS,
         Ok(Ending::Refused) => ExitCode::from(3),
@@ -51,9 +53,21 @@ fn main() -> ExitCode {
             terminal::error(&format!("{error}\n\nFor more information, try '--help'."));
             ExitCode::from(2)
         }
+        Err(error) if is_cancelled(&error) => {
+            terminal::error("ended by Ctrl-C; nothing was written");
+            ExitCode::from(interrupt::EXIT_CODE)
+        }
         Err(error) => {
             terminal::error(&format!("{error:#}"));
             ExitCode::FAILURE
         }
     }
+}
+
+fn is_cancelled(error: &anyhow::Error) -> bool {
+    error.chain().any(|cause| {
+        cause.is::<Cancelled>()
+            || cause.downcast_ref::<MergeError>().is_some_and(MergeError::is_cancelled)
+            || matches!(cause.downcast_ref(), Some(FusionError::Cancelled(_)))
+    })
 }

@@ -3,17 +3,16 @@
 use std::path::Path;
 
 use anyhow::Context;
-use grid_merge::{MergeParams, Merged, PlacedMap};
-use ogm_core::Se2;
+use ogm_core::{Progress, Stage};
 use ogm_io::{WriteOptions, write_file, write_map};
+use ogm_merge::{Component, FusionParams, Merged, PairReport, PoseDegrees, Verdict, fuse};
 use serde::Serialize;
 
-use crate::answer::{PairAnswer, SCHEMA, Verdict};
+use crate::answer::{PairAnswer, SCHEMA};
 use crate::args::MergeArgs;
 use crate::input::{Input, MapFile};
-use crate::pose::Pose;
-use crate::progress::Progress;
-use crate::search::{Robot, check, search};
+use crate::progress::Bar;
+use crate::search::{check, search};
 use crate::tags::logs_of;
 use crate::usage::UsageError;
 use crate::{Ending, output, terminal, text};
@@ -28,23 +27,6 @@ struct MergeAnswer {
     output: Option<Output>,
 }
 
-/// Maps that hang together, in the frame of the first of them.
-#[derive(Debug, Serialize)]
-struct Component {
-    poses: Vec<MapPose>,
-    /// Over (`x_m`, `y_m`, θ in radians), in the order of `poses`; `None` where the method has none.
-    covariances: Vec<Option<[[f64; 3]; 3]>>,
-}
-
-/// Where a map lies.
-#[derive(Debug, Serialize)]
-struct MapPose {
-    /// Which of `maps`, from 0.
-    map: usize,
-    #[serde(flatten)]
-    pose: Pose,
-}
-
 /// The map that was written.
 #[derive(Debug, Serialize)]
 struct Output {
@@ -52,7 +34,7 @@ struct Output {
     width: usize,
     height: usize,
     resolution_m: f64,
-    origin: Pose,
+    origin: PoseDegrees,
     /// Maps that are in it.
     maps: Vec<usize>,
     compared_cells: usize,
@@ -71,27 +53,26 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let inputs = [Input::read(target, quiet)?, Input::read(source, quiet)?];
     check_outputs(args, &inputs, logs.iter().flatten().map(AsRef::as_ref))?;
 
-    let progress = Progress::start("merging", quiet);
-    let [target, source] = &inputs;
-    let target_robot = Robot { input: target, log: logs[0].as_ref() };
-    let source_robot = Robot { input: source, log: logs[1].as_ref() };
-    let pair = search(target_robot, source_robot, &args.search)?;
+    let bar = Bar::start("merging", quiet);
+    let part = Stage::new(&bar, 0.0, 0.8);
+    let pair = search(inputs.each_ref(), &logs, &args.search, &part)?;
     let overlay = match &args.overlay {
-        Some(path) => drawn(path, &inputs, &pair)?,
+        Some(path) => drawn(path, &inputs, &pair.report)?,
         None => None,
     };
-    let merged = fused(&inputs, &pair, args)
-        .with_context(|| format!("cannot make {}", args.output.display()))?;
-    drop(progress);
+    let components = pair.report.components();
+    let fused = fused(&inputs, &components, args, &Stage::new(&bar, 0.8, 1.0))?;
+    drop(bar);
+    let merged = fused.as_ref().map(|(_, merged)| merged);
 
-    if let Some(merged) = &merged {
+    if let Some(merged) = merged {
         let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };
         write_map(&args.output, &merged.map, &options)?;
     }
     match (&args.overlay, overlay) {
         (Some(path), Some(png)) => {
             write_file(path, &png, args.force)?;
-            if pair.verdict != Verdict::Merged && !quiet {
+            if pair.report.verdict() != Verdict::Merged && !quiet {
                 let path = path.display();
                 terminal::warning(&format!("{path} shows the best transform, which was refused"));
             }
@@ -102,19 +83,21 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
         }
         _ => {}
     }
-    let ending = pair.verdict.ending();
+    let ending = pair.ending();
     let answer = MergeAnswer {
         schema: SCHEMA,
         maps: inputs.iter().map(Input::file).collect(),
-        components: components(&pair),
-        output: merged.as_ref().map(|merged| Output::new(&args.output, merged, &pair)),
         pairs: vec![pair],
+        output: fused
+            .as_ref()
+            .map(|(component, merged)| Output::new(&args.output, component, merged)),
+        components,
     };
     let json = serde_json::to_string_pretty(&answer)? + "\n";
     if let Some(path) = &args.report {
         write_file(path, json.as_bytes(), args.force)?;
     }
-    terminal::result(&if args.search.json { json } else { said(&answer, merged.as_ref(), args) })?;
+    terminal::result(&if args.search.json { json } else { said(&answer, merged, args) })?;
     Ok(ending)
 }
 
@@ -134,7 +117,7 @@ fn check_outputs<'a>(
 fn drawn(
     path: &Path,
     [target, source]: &[Input; 2],
-    pair: &PairAnswer,
+    pair: &PairReport,
 ) -> anyhow::Result<Option<Vec<u8>>> {
     let Some(target_from_source) = pair.target_from_source else {
         return Ok(None);
@@ -144,43 +127,27 @@ fn drawn(
     Ok(Some(png.with_context(|| format!("cannot draw {}", path.display()))?))
 }
 
-/// Both maps in the frame of the first if they match; the first alone if that is allowed.
+/// The component of the first map as one map, if it holds all maps or that is not asked for.
 fn fused(
-    [target, source]: &[Input; 2],
-    pair: &PairAnswer,
+    inputs: &[Input; 2],
+    components: &[Component],
     args: &MergeArgs,
-) -> anyhow::Result<Option<Merged>> {
-    let mut placed = vec![PlacedMap { map: target.map(), reference_from_map: Se2::identity() }];
-    match pair.target_from_source.filter(|_| pair.verdict == Verdict::Merged) {
-        Some(target_from_source) => {
-            placed.push(PlacedMap { map: source.map(), reference_from_map: target_from_source });
-        }
-        None if args.allow_partial => {}
-        None => return Ok(None),
-    }
-    let fusion = args.fusion.rule();
-    let params = MergeParams { fusion, resolution: args.resolution, ..MergeParams::default() };
-    Ok(Some(grid_merge::merge(&placed, &params)?))
-}
-
-fn components(pair: &PairAnswer) -> Vec<Component> {
-    let alone = |map| Component {
-        poses: vec![MapPose { map, pose: Se2::identity().into() }],
-        covariances: vec![Some([[0.0; 3]; 3])],
+    progress: &dyn Progress,
+) -> anyhow::Result<Option<(Component, Merged)>> {
+    let Some(first) = components.first().filter(|_| components.len() == 1 || args.allow_partial)
+    else {
+        return Ok(None);
     };
-    match pair.target_from_source.filter(|_| pair.verdict == Verdict::Merged) {
-        Some(target_from_source) => {
-            let mut both = alone(0);
-            both.poses.push(MapPose { map: 1, pose: target_from_source.into() });
-            both.covariances.push(pair.hypotheses.first().and_then(|best| best.covariance));
-            vec![both]
-        }
-        None => vec![alone(0), alone(1)],
-    }
+    let maps = inputs.each_ref().map(Input::map);
+    let (fusion, resolution) = (args.fusion.rule(), args.resolution);
+    let params = FusionParams { fusion, resolution, ..FusionParams::default() };
+    let merged = fuse(&maps, first, &params, progress)
+        .with_context(|| format!("cannot make {}", args.output.display()))?;
+    Ok(Some((first.clone(), merged)))
 }
 
 impl Output {
-    fn new(yaml: &Path, merged: &Merged, pair: &PairAnswer) -> Self {
+    fn new(yaml: &Path, component: &Component, merged: &Merged) -> Self {
         let map = &merged.map;
         Self {
             file: yaml.display().to_string(),
@@ -188,7 +155,7 @@ impl Output {
             height: map.height(),
             resolution_m: map.frame().resolution(),
             origin: map.frame().map_from_grid().into(),
-            maps: if pair.verdict == Verdict::Merged { vec![0, 1] } else { vec![0] },
+            maps: component.members.iter().map(|member| member.map).collect(),
             compared_cells: merged.compared,
             conflict_cells: merged.conflict_count,
         }
@@ -196,20 +163,19 @@ impl Output {
 }
 
 fn said(answer: &MergeAnswer, merged: Option<&Merged>, args: &MergeArgs) -> String {
-    let mut said = String::new();
-    for pair in &answer.pairs {
-        said += &text::pair(pair);
-    }
-    if let Some(merged) = merged {
-        said += &text::written(&args.output, &merged.map);
-        if let [pair] = &answer.pairs[..]
-            && pair.verdict == Verdict::Merged
-        {
+    let mut said: String = answer.pairs.iter().map(text::pair).collect();
+    let Some(merged) = merged else {
+        return said;
+    };
+    said += &text::written(&args.output, &merged.map);
+    match &answer.components[0].members[..] {
+        [_, others @ ..] if !others.is_empty() => {
             said += &text::conflicts(merged);
-            said += &text::static_transform(pair);
-        } else {
-            said += &format!("  it is {} alone\n", answer.maps[0].file);
+            for member in others {
+                said += &text::static_transform(&member.reference_from_map);
+            }
         }
+        _ => said += &format!("  it is {} alone\n", answer.maps[0].file),
     }
     said
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::Context;
 use ogm_core::TagEstimate;
 use ogm_io::read_tags;
-use rfid_loc::{FilterParams, localise};
+use ogm_merge::{FilterParams, localise};
 
 use crate::usage::UsageError;
 

@@ -4,70 +4,75 @@ use std::fmt::Write;
 use std::path::Path;
 
 use grid_merge::Merged;
-use ogm_core::OccupancyGrid;
+use ogm_core::{OccupancyGrid, Outcome, Se2};
 
-use crate::answer::{PairAnswer, Verdict};
-use crate::pose::Pose;
+use crate::answer::PairAnswer;
 use crate::terminal::highlight;
+
+/// Standing for "merged", "ambiguous" and "no-match".
+const GREEN: &str = "32";
+const YELLOW: &str = "33";
+const RED: &str = "31";
 
 /// The answer on a pair of maps, several lines.
 pub(crate) fn pair(answer: &PairAnswer) -> String {
+    let report = &answer.report;
     let (target, source) = (&answer.target.file, &answer.source.file);
+    let verdict = report.verdict().name();
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = match (answer.verdict, &answer.reason) {
-        (Verdict::Merged, _) => {
-            writeln!(text, "{}: {source} lies on {target}", highlight("merged", "32"))
+    let _ = match &report.outcome {
+        Outcome::Found(_) => {
+            writeln!(text, "{}: {source} lies on {target}", highlight(verdict, GREEN))
         }
-        (Verdict::Ambiguous, reason) => {
-            let reason = reason.as_deref().unwrap_or_default();
-            writeln!(text, "{}", reason.replacen("ambiguous", &highlight("ambiguous", "33"), 1))
+        Outcome::Refused(refusal) if refusal.is_ambiguous() => {
+            writeln!(text, "{}: {}", highlight(verdict, YELLOW), refusal.detail())
         }
-        (Verdict::NoMatch, reason) => {
-            let reason = reason.as_deref().unwrap_or_default();
-            writeln!(text, "{}: {reason}", highlight("no-match", "31"))
-        }
+        Outcome::Refused(refusal) => writeln!(text, "{}: {refusal}", highlight(verdict, RED)),
     };
-    if answer.copies {
-        let _ = writeln!(text, "  both files hold the same map, which is laid on itself");
+    for warning in &report.warnings {
+        let _ = writeln!(text, "  {}: {warning}", highlight("warning", YELLOW));
     }
-    let Some(best) = answer.hypotheses.first() else {
+    let Some(best) = report.hypotheses.first() else {
         return text;
     };
-    let _ = writeln!(text, "  target_from_source: {}{}", best.pose, identity(&best.pose));
+    let pose = best.target_from_source;
+    let _ = writeln!(text, "  target_from_source: {pose}{}", identity(&pose));
     if let Some(covariance) = best.covariance {
-        let sigma = |axis: usize| covariance[axis][axis].sqrt();
+        let sigma = |axis: usize| covariance[(axis, axis)].sqrt();
         let (x, y, theta) = (sigma(0), sigma(1), sigma(2).to_degrees());
         let _ =
             writeln!(text, "  standard deviations: x {x:.3} m, y {y:.3} m, theta {theta:.2} deg");
     }
     if let Some(probability) = best.probability {
         let _ = write!(text, "  probability: {probability:.3}");
-        let _ = match answer.hypotheses.get(1) {
-            Some(next) => {
-                let probability = next.probability.unwrap_or_default();
-                writeln!(text, "; runner-up {probability:.3} at {}", next.pose)
+        let runner_up = report.hypotheses.get(1);
+        let _ = match runner_up.and_then(|next| Some((next, next.probability?))) {
+            Some((next, probability)) => {
+                writeln!(text, "; runner-up {probability:.3} at {}", next.target_from_source)
             }
             None => writeln!(text, "; no runner-up"),
         };
     }
-    if let (Some(overlap), Some(agreement)) = (answer.overlap, answer.agreement) {
+    if let (Some(overlap), Some(agreement)) = (report.overlap, report.agreement) {
         let (overlap, agreement) = (100.0 * overlap, 100.0 * agreement);
         let _ = writeln!(text, "  overlap: {overlap:.0} %, walls agree: {agreement:.0} %");
     }
-    let _ = writeln!(text, "  method: {}, {} ms", answer.method, answer.elapsed_ms);
+    let _ = writeln!(text, "  method: {}, {} ms", report.method.name(), answer.elapsed_ms);
     text
 }
 
 /// Said of a transform that would be taken for a failure otherwise.
-fn identity(pose: &Pose) -> &'static str {
-    let is_identity = pose.x_m.abs() < 5e-4 && pose.y_m.abs() < 5e-4 && pose.theta_deg.abs() < 5e-3;
+fn identity(target_from_source: &Se2) -> &'static str {
+    let pose = target_from_source;
+    let is_identity =
+        pose.x().abs() < 5e-4 && pose.y().abs() < 5e-4 && pose.theta().to_degrees().abs() < 5e-3;
     if is_identity { " (identity)" } else { "" }
 }
 
 /// That a map was written.
 pub(crate) fn written(yaml: &Path, map: &OccupancyGrid) -> String {
-    let origin = Pose::from(map.frame().map_from_grid());
+    let origin = map.frame().map_from_grid();
     format!(
         "wrote {}: {} x {} cells of {} m, origin {origin}\n",
         yaml.display(),
@@ -84,14 +89,12 @@ pub(crate) fn conflicts(merged: &Merged) -> String {
 }
 
 /// The command that tells ROS where the second map lies.
-pub(crate) fn static_transform(pair: &PairAnswer) -> String {
-    let Some(target_from_source) = pair.target_from_source else {
-        return String::new();
-    };
-    let Pose { x_m, y_m, .. } = target_from_source.into();
+pub(crate) fn static_transform(target_from_source: &Se2) -> String {
+    // Adding zero turns -0.0 into 0.0.
+    let [x, y] = [target_from_source.x(), target_from_source.y()].map(|metres| metres + 0.0);
     let yaw = target_from_source.theta() + 0.0;
     format!(
-        "ros2 run tf2_ros static_transform_publisher --x {x_m:.6} --y {y_m:.6} --yaw {yaw:.6} \
+        "ros2 run tf2_ros static_transform_publisher --x {x:.6} --y {y:.6} --yaw {yaw:.6} \
          --frame-id robot1/map --child-frame-id robot2/map\n"
     )
 }

@@ -6,7 +6,7 @@ use ogm_view::{occupancy, overlay, png};
 
 use crate::args::ViewArgs;
 use crate::input::Input;
-use crate::progress::Progress;
+use crate::progress::Wheel;
 use crate::{Ending, output};
 
 pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
@@ -15,11 +15,11 @@ pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
     let inputs: Vec<_> = [Some(&target), source.as_ref()].into_iter().flatten().collect();
     let paths: Vec<_> = inputs.iter().flat_map(|input| input.paths()).collect();
     output::check(&[&args.output], &paths, args.force)?;
-    let _progress = Progress::start("drawing", args.quiet);
+    let _progress = Wheel::start("drawing", args.quiet);
     let cannot_draw = || format!("cannot draw {}", args.output.display());
     let picture = match source.as_ref().zip(args.transform) {
         Some((source, transform)) => {
-            overlay(target.map(), source.map(), transform.into()).with_context(cannot_draw)?
+            overlay(target.map(), source.map(), transform).with_context(cannot_draw)?
         }
         None => occupancy(target.map()),
     };

@@ -1,8 +1,8 @@
-//! Input that cannot be meant.
+//! Input that cannot be meant, and calls that were ended.
 
-use ogm_core::GridError;
+use ogm_core::{Cancelled, GridError};
 
-/// Input to a recipe that cannot be meant.
+/// Why a call gave no report: input that cannot be meant, or a cancelled call.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MergeError {
@@ -20,11 +20,38 @@ pub enum MergeError {
     Walk(#[from] carpin_walk::WalkError),
     /// The fusion.
     #[error(transparent)]
-    Fusion(#[from] grid_merge::MergeError),
+    Fusion(#[from] grid_merge::FusionError),
     /// The search for a transform.
     #[error(transparent)]
     Matching(#[from] grid_match::MatchError),
     /// The maps or parameters of the segment and Radon method.
     #[error(transparent)]
     Radon(#[from] radon_merge::RadonError),
+    /// A component of maps that were not handed in.
+    #[error("a component names map {map}, counted from 0, where there are {maps} maps")]
+    NoSuchMap {
+        /// Which map.
+        map: usize,
+        /// How many there are.
+        maps: usize,
+    },
+    /// The call was asked to end.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl MergeError {
+    /// Whether the call was asked to end, at whatever stage it was.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        match self {
+            Self::Cancelled(_)
+            | Self::Walk(carpin_walk::WalkError::Cancelled(_))
+            | Self::Fusion(grid_merge::FusionError::Cancelled(_))
+            | Self::Matching(grid_match::MatchError::Cancelled(_))
+            | Self::Radon(radon_merge::RadonError::Cancelled(_))
+            | Self::Tags(rfid_loc::TagError::Cancelled(_)) => true,
+            _ => false,
+        }
+    }
 }

@@ -1,53 +1,78 @@
 //! Merges the occupancy grid maps of robot teams.
 //!
-//! The recipes, each a short function over small crates:
-//!
-//! - [`align`] and [`merge`]: methods #1 to #3 of Tsardoulias, Thallas, Petrou, *Metric Map Merging
-//!   using RFID Tags & Topological Information* ([`Method`]). A [`MergeReport`] says what each
-//!   stage saw.
-//! - [`align_carpin`]: the random walk of Carpin and Birk, from a rough start.
-//! - [`align_by_radon`] and [`merge_by_radon`]: the segments of Saeedi et al., for a team.
-//! - [`merge_matched`]: any two maps, without tags or a start.
+//! [`align_pair`] finds the transform between two maps by any [`Method`], says what every stage
+//! saw, or refuses with a reason; [`fuse`] makes one map of what hangs together. Every front end
+//! calls these and decides nothing itself.
 //!
 //! ```
-//! use ogm_merge::{MergeParams, Method, RobotMap, merge};
-//! use ogm_sim::{FloorPlan, LidarParams, PairParams, simulate_pair};
-//! use rfid_loc::{FilterParams, localise};
+//! use ogm_merge::{AlignParams, FusionParams, Method, RobotMap, align_pair, fuse};
+//! use ogm_sim::{FloorPlan, LidarParams, MappingParams, PairParams, simulate_pair};
 //!
 //! let sparse = LidarParams { beams: 181, ..LidarParams::rf() };
-//! let world = PairParams { seed: 1, lidar: sparse, ..PairParams::default() };
+//! let mapping = MappingParams { resolution: 0.05, ..MappingParams::default() };
+//! let world = PairParams { seed: 1, lidar: sparse, mapping, ..PairParams::default() };
 //! let pair = simulate_pair(&FloorPlan::plan_a(), &world)?;
-//! let target_tags = localise(&pair.target.readings, &FilterParams::default())?;
-//! let source_tags = localise(&pair.source.readings, &FilterParams::default())?;
 //!
-//! let target = RobotMap { map: &pair.target.map, tags: &target_tags };
-//! let source = RobotMap { map: &pair.source.map, tags: &source_tags };
-//! let (report, merged) = merge(Method::Rfid3, &target, &source, &MergeParams::default())?;
-//! let target_from_source = report.outcome.found().expect("these maps match");
+//! let maps = [&pair.target.map, &pair.source.map];
+//! let [target, source] = maps.map(RobotMap::from);
+//! let report = align_pair(Method::Auto, &target, &source, &AlignParams::default(), &())?;
+//! let target_from_source = report.outcome.clone().found().expect("these maps match");
 //! let error = target_from_source.between(&pair.target_from_source);
 //! assert!(error.translation().norm() < 0.02 && error.theta().abs() < 0.005);
-//! assert!(merged.expect("merged where a transform was found").compared > 0);
+//!
+//! let [component] = &report.components()[..] else { panic!("they hang together") };
+//! let merged = fuse(&maps, component, &FusionParams::default(), &())?;
+//! assert!(merged.compared > 0);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! The papers' methods by themselves, with the knobs and the evidence of every stage:
+//!
+//! - [`align_by_tags`]: methods #1 to #3 of Tsardoulias, Thallas, Petrou, *Metric Map Merging using
+//!   RFID Tags & Topological Information*.
+//! - [`align_carpin`]: the random walk of Carpin and Birk, from a rough start.
+//! - [`align_by_radon`] and [`merge_by_radon`]: the segments of Saeedi et al., for a team.
+//!
+//! The last argument of what may take long is an [`ogm_core::Progress`], `&()` for none.
 
-mod align;
-mod carpin;
 mod error;
-mod matched;
+mod evidence;
+#[cfg(feature = "serde")]
+mod json;
+mod merge;
+mod method;
+mod pair;
 mod params;
-mod radon;
+mod pose;
 mod recipes;
 mod report;
+mod resolution;
+mod robot_map;
+mod schedule;
+mod segments;
 mod stop;
+mod tagged;
 mod verify;
+mod walk;
+mod warning;
 
-pub use align::{Method, RobotMap, align, merge};
-pub use carpin::{CarpinParams, CarpinReport, align_carpin};
 pub use error::MergeError;
-pub use matched::merge_matched;
-pub use params::{Anchor, MergeParams, RfidParams};
-pub use radon::{TeamMerge, align_by_radon, merge_by_radon};
-pub use report::{Evidence, MergeReport, WallAgreement, WallDirection, Warning};
+pub use evidence::{TagEvidence, WallAgreement, WallDirection};
+pub use grid_match::{MatchParams, Prior};
+pub use grid_merge::{FusionParams, FusionRule, Merged};
+pub use merge::{Component, Member, fuse};
+pub use method::{Method, TagMethod};
+pub use ogm_core;
+pub use pair::align_pair;
+pub use params::{AlignParams, Anchor, RfidParams};
+pub use pose::PoseDegrees;
+pub use report::{Hypothesis, PairReport, Stages, Verdict};
+pub use rfid_loc::{FilterParams, localise};
+pub use robot_map::RobotMap;
+pub use segments::{TeamMerge, align_by_radon, merge_by_radon};
+pub use tagged::{TagReport, align_by_tags};
+pub use walk::{CarpinParams, CarpinReport, align_carpin};
+pub use warning::Warning;
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

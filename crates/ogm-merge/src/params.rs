@@ -1,8 +1,28 @@
 //! The knobs of every stage, gathered.
 
+use grid_match::{MatchParams, Prior};
 use icp2d::{IcpParams, StartParams};
 use ogm_core::ClassThresholds;
+use radon_merge::RadonParams;
 use rfid_loc::{RotationParams, SelectionParams, TagOnlyParams};
+
+/// How [`align_pair`](crate::align_pair) looks for a transform; each field is that of the crate
+/// which does the step.
+#[derive(Debug, Clone, Default)]
+pub struct AlignParams {
+    /// Seed of everything random; it replaces that of every stage.
+    pub seed: u64,
+    /// A pose that is already believed, for the methods that take one
+    /// ([`Method::takes_prior`](crate::Method::takes_prior)); `None` looks everywhere. It replaces
+    /// that of `matching`.
+    pub prior: Option<Prior>,
+    /// The methods by tags.
+    pub rfid: RfidParams,
+    /// The maps alone, and what an answer must reach.
+    pub matching: MatchParams,
+    /// Segments and the Radon transform.
+    pub radon: RadonParams,
+}
 
 /// Parameters of methods #1, #1b, #2 and #3; each field is that of the crate which does the step.
 #[derive(Debug, Clone)]
@@ -58,11 +78,3 @@ impl Default for RfidParams {
     }
 }
 
-/// Parameters of a merge: how the transform is found and how the cells are fused.
-#[derive(Debug, Clone, Default)]
-pub struct MergeParams {
-    /// How the transform is found.
-    pub rfid: RfidParams,
-    /// How the cells are fused once it is.
-    pub fusion: grid_merge::MergeParams,
-}

@@ -1,7 +1,7 @@
 //! The recipes: each reads like the section of the paper that it implements.
 
 use icp2d::{Termination, WallPoints};
-use ogm_core::{OccupancyGrid, Refusal, Se2};
+use ogm_core::{OccupancyGrid, Progress, Refusal, Se2};
 use rfid_loc::{
     AMBIGUOUS_ABOVE, QuadrantConfidence, TagPair, anchor_on_all_tags, anchor_on_best_tag,
     common_tags, least_squares_transform, quadrant, select_tags, tag_only_transform, tag_rotation,
@@ -9,14 +9,15 @@ use rfid_loc::{
 
 use crate::stop::Stop;
 use crate::verify::wall_agreement;
-use crate::{Anchor, Evidence, RfidParams, RobotMap, WallDirection};
+use crate::{Anchor, RfidParams, RobotMap, TagEvidence, WallDirection};
 
 /// Method #1: three common tags and nothing else (Tsardoulias et al., section 5.2).
 pub(crate) fn tags_alone(
     target: &RobotMap<'_>,
     source: &RobotMap<'_>,
     params: &RfidParams,
-    seen: &mut Evidence,
+    seen: &mut TagEvidence,
+    _progress: &dyn Progress,
 ) -> Result<Se2, Stop> {
     let tags = sure_tags(target, source, params, seen)?;
     Ok(tag_only_transform(&tags, &params.tag_only)?.into_result()?)
@@ -27,7 +28,8 @@ pub(crate) fn tags_least_squares(
     target: &RobotMap<'_>,
     source: &RobotMap<'_>,
     params: &RfidParams,
-    seen: &mut Evidence,
+    seen: &mut TagEvidence,
+    _progress: &dyn Progress,
 ) -> Result<Se2, Stop> {
     let tags = sure_tags(target, source, params, seen)?;
     Ok(least_squares_transform(&tags, &params.rotation).into_result()?)
@@ -39,14 +41,17 @@ pub(crate) fn tags_and_walls(
     target: &RobotMap<'_>,
     source: &RobotMap<'_>,
     params: &RfidParams,
-    seen: &mut Evidence,
+    seen: &mut TagEvidence,
+    progress: &dyn Progress,
 ) -> Result<Se2, Stop> {
     let tags = sure_tags(target, source, params, seen)?;
     let by_tags = tag_rotation(&tags, &params.rotation).into_result()?;
     seen.tag_rotation = Some(by_tags);
 
     let target_walls = wall_direction(target.map, params)?;
+    progress.go_on(0.2)?;
     let source_walls = wall_direction(source.map, params)?;
+    progress.go_on(0.4)?;
     let by_walls = ogm_vector::wall_rotation(&target_walls.vector, &source_walls.vector);
     seen.walls = Some([target_walls, source_walls]);
 
@@ -70,9 +75,10 @@ pub(crate) fn tags_walls_and_icp(
     target: &RobotMap<'_>,
     source: &RobotMap<'_>,
     params: &RfidParams,
-    seen: &mut Evidence,
+    seen: &mut TagEvidence,
+    progress: &dyn Progress,
 ) -> Result<Se2, Stop> {
-    let start_target_from_source = tags_and_walls(target, source, params, seen)?;
+    let start_target_from_source = tags_and_walls(target, source, params, seen, progress)?;
     let target_points = WallPoints::from_grid(target.map, &params.thresholds)?;
     let source_points = WallPoints::from_grid(source.map, &params.thresholds)?;
     let start_target_from_source = match &params.start {
@@ -83,6 +89,7 @@ pub(crate) fn tags_walls_and_icp(
         None => start_target_from_source,
     };
     seen.start_target_from_source = Some(start_target_from_source);
+    progress.go_on(0.7)?;
     let alignment =
         icp2d::align(&target_points, &source_points, start_target_from_source, &params.icp)?
             .into_result()?;
@@ -108,7 +115,7 @@ fn sure_tags(
     target: &RobotMap<'_>,
     source: &RobotMap<'_>,
     params: &RfidParams,
-    seen: &mut Evidence,
+    seen: &mut TagEvidence,
 ) -> Result<[TagPair; 3], Stop> {
     seen.common_tags = common_tags(target.tags, source.tags)?;
     Ok(select_tags(&seen.common_tags, &params.selection).into_result()?)

@@ -1,122 +1,130 @@
-//! What each stage of a merge saw and decided.
+//! What was found about a pair of maps.
 
-use icp2d::{Alignment, Termination};
-use line_ransac::Extraction;
-use ogm_core::{Outcome, Se2};
-use ogm_vector::OgmVector;
-use rfid_loc::{Quadrant, QuadrantConfidence, TagPair, TagRotation};
+use grid_match::{Evidence, MatchReport, PreparedMap, score_pose};
+use nalgebra::Matrix3;
+use ogm_core::{ClassThresholds, OccupancyGrid, Outcome, Se2};
+use radon_merge::RadonMatch;
 
-use crate::Method;
+use crate::walk::CarpinReport;
+use crate::{MergeError, Method, TagEvidence, Warning};
 
-/// The answer of a recipe, and what led to it.
+/// The answer about a pair of maps, and what led to it.
+///
+/// With the feature `serde` its serialised form is the answer of the command `ogm align --json`,
+/// less what only the command knows (files, elapsed time).
 #[derive(Debug, Clone)]
-pub struct MergeReport {
-    /// Which recipe.
+pub struct PairReport {
+    /// The method that gave the answer; never [`Method::Auto`].
     pub method: Method,
-    /// Metres a cell of the maps as they were aligned: the coarser of the two.
-    pub resolution: f64,
-    /// What the stages saw, as far as they were reached.
-    pub evidence: Evidence,
-    /// The transform that maps points of the source map into the target map, or why there is none.
+    /// Seed of everything random.
+    pub seed: u64,
+    /// The transform that maps points of the source map into the target map, or why none is
+    /// believed.
     pub outcome: Outcome<Se2>,
-}
-
-/// What each stage saw; what a method does not do, or did not reach, is `None` or empty.
-#[derive(Debug, Clone, Default)]
-pub struct Evidence {
-    /// Tags localised in both maps, the surest first, whether or not they are sure enough.
-    pub common_tags: Vec<TagPair>,
-    /// Rotation by the tags alone.
-    pub tag_rotation: Option<TagRotation>,
-    /// Walls and direction of the target map, then of the source map.
-    pub walls: Option<[WallDirection; 2]>,
-    /// The quarter turn that tags and walls agree on.
-    pub quadrant: Option<Quadrant>,
-    /// What tags and walls give, which is the answer of #2.
-    pub unrefined_target_from_source: Option<Se2>,
-    /// Where the refinement started, after looking around that.
-    pub start_target_from_source: Option<Se2>,
-    /// The refinement.
-    pub refinement: Option<Alignment>,
-    /// How far the walls of the two maps agree under the refined transform.
-    pub wall_agreement: Option<WallAgreement>,
-}
-
-/// Walls that one map shows where the other has been.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct WallAgreement {
-    /// Wall cells of either map that lie within two cells of a wall of the other.
-    pub agreeing: usize,
-    /// Wall cells of either map that lie where the other knows.
-    pub compared: usize,
-}
-
-impl WallAgreement {
-    /// Share of the compared cells that agree, or `None` if nothing could be compared.
-    #[must_use]
-    pub fn share(&self) -> Option<f64> {
-        (self.compared > 0).then(|| self.agreeing as f64 / self.compared as f64)
-    }
-}
-
-/// What makes an answer less sure than it looks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, thiserror::Error)]
-#[non_exhaustive]
-pub enum Warning {
-    /// The maps place the tags at different distances from each other.
-    #[error("the maps disagree about the distances between tags: one may have been moved")]
-    TagsMismatch,
-    /// The walls of one map have no common direction.
-    #[error("the walls of one map are hardly rectangular")]
-    WeakWalls,
-    /// One map has walls of a single direction.
-    #[error("one map has walls of a single direction")]
-    SingleWallDirection,
-    /// Tags and walls differ by more than 20 degrees.
-    #[error("tags and walls differ by more than 20 degrees")]
-    QuadrantResidual,
-    /// The common walls leave one direction open.
-    #[error(
-        "the common walls leave one direction open, as in a corridor; along it the tags decide"
-    )]
-    Unobservable,
-    /// The refinement did not settle.
-    #[error("the refinement did not settle within its iterations")]
-    NotSettled,
-    /// The refinement could not improve on its start.
-    #[error("the refinement could not improve on its start, which was kept")]
-    NotImproved,
-}
-
-impl Evidence {
+    /// The best transform found, believed or not.
+    pub target_from_source: Option<Se2>,
+    /// Known in both maps over known in the smaller one, under the best transform.
+    pub overlap: Option<f64>,
+    /// Share of the compared wall that fits, under the best transform.
+    pub agreement: Option<f64>,
+    /// Distinct poses, best first, at most five.
+    pub hypotheses: Vec<Hypothesis>,
     /// What makes the answer less sure than it looks.
+    pub warnings: Vec<Warning>,
+    /// What each stage saw.
+    pub stages: Stages,
+}
+
+impl PairReport {
+    /// The outcome in a word.
     #[must_use]
-    pub fn warnings(&self) -> Vec<Warning> {
-        let wall_vectors = || self.walls.iter().flatten().map(|walls| &walls.vector);
-        let ended = self.refinement.map(|refinement| refinement.termination);
-        [
-            (self.tag_rotation.is_some_and(|by_tags| by_tags.mismatch), Warning::TagsMismatch),
-            (wall_vectors().any(|vector| vector.weak), Warning::WeakWalls),
-            (wall_vectors().any(|vector| vector.single_direction), Warning::SingleWallDirection),
-            (
-                self.quadrant.is_some_and(|q| q.confidence == QuadrantConfidence::Warning),
-                Warning::QuadrantResidual,
-            ),
-            (self.refinement.is_some_and(|r| r.unobservable.is_some()), Warning::Unobservable),
-            (ended == Some(Termination::IterationLimit), Warning::NotSettled),
-            (matches!(ended, Some(Termination::WorseFit { .. })), Warning::NotImproved),
-        ]
-        .into_iter()
-        .filter_map(|(applies, warning)| applies.then_some(warning))
-        .collect()
+    pub fn verdict(&self) -> Verdict {
+        match &self.outcome {
+            Outcome::Found(_) => Verdict::Merged,
+            Outcome::Refused(refusal) if refusal.is_ambiguous() => Verdict::Ambiguous,
+            Outcome::Refused(_) => Verdict::NoMatch,
+        }
+    }
+
+    /// Probability that the best transform is right; `None` for a method without a calibrated one.
+    #[must_use]
+    pub fn probability(&self) -> Option<f64> {
+        self.hypotheses.first().and_then(|best| best.probability)
     }
 }
 
-/// The straight walls of one map and the direction they give.
-#[derive(Debug, Clone)]
-pub struct WallDirection {
-    /// Lines after each stage of their extraction.
-    pub extraction: Extraction,
-    /// Direction of the building in the map frame.
-    pub vector: OgmVector,
+/// Whether two maps match.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Verdict {
+    /// They do.
+    Merged,
+    /// Several ways to lay them on each other fit about as well.
+    Ambiguous,
+    /// None fits well enough.
+    NoMatch,
+}
+
+impl Verdict {
+    /// As reports call it.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Merged => "merged",
+            Self::Ambiguous => "ambiguous",
+            Self::NoMatch => "no-match",
+        }
+    }
+}
+
+/// One way to lay the source on the target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hypothesis {
+    /// Maps points of the source map into the target map.
+    pub target_from_source: Se2,
+    /// Probability that it is right; `None` for a method without a calibrated one.
+    pub probability: Option<f64>,
+    /// Log-odds that it is right against that no pose is, by what the maps say about it
+    /// ([`grid_match::Evidence::score`]).
+    pub score: f64,
+    /// Covariance of (x, y, θ) in target axes, m², m·rad, rad²; `None` for a method without one.
+    pub covariance: Option<Matrix3<f64>>,
+}
+
+impl From<&grid_match::Hypothesis> for Hypothesis {
+    fn from(found: &grid_match::Hypothesis) -> Self {
+        Self {
+            target_from_source: found.pose.target_from_source,
+            probability: Some(found.pose.probability),
+            score: found.score,
+            covariance: Some(found.pose.covariance),
+        }
+    }
+}
+
+impl Hypothesis {
+    /// A pose of a method that says nothing about it, and what `maps`, target first, say.
+    pub(crate) fn scored(
+        maps: [&OccupancyGrid; 2],
+        target_from_source: Se2,
+        thresholds: &ClassThresholds,
+    ) -> Result<(Self, Evidence), MergeError> {
+        let [target, source] = maps.map(|map| PreparedMap::new(map, thresholds));
+        let evidence = score_pose(&target, &source, &target_from_source)?;
+        let score = evidence.score();
+        Ok((Self { target_from_source, probability: None, score, covariance: None }, evidence))
+    }
+}
+
+/// What each stage saw; what did not run is `None` or empty.
+#[derive(Debug, Clone, Default)]
+#[non_exhaustive]
+pub struct Stages {
+    /// Of a method by tags.
+    pub tags: Option<TagEvidence>,
+    /// The random walks, in order.
+    pub walks: Vec<CarpinReport>,
+    /// Of segments and the Radon transform.
+    pub radon: Option<RadonMatch>,
+    /// Of the maps alone.
+    pub matching: Option<MatchReport>,
 }

@@ -1,6 +1,6 @@
 //! Why a recipe ends early: a refusal is an outcome, an error is not.
 
-use ogm_core::Refusal;
+use ogm_core::{Cancelled, Refusal};
 
 use crate::MergeError;
 
@@ -26,5 +26,11 @@ impl From<rfid_loc::TagError> for Stop {
 impl From<icp2d::IcpError> for Stop {
     fn from(error: icp2d::IcpError) -> Self {
         Self::Error(error.into())
+    }
+}
+
+impl From<Cancelled> for Stop {
+    fn from(cancelled: Cancelled) -> Self {
+        Self::Error(cancelled.into())
     }
 }

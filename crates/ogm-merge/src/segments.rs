@@ -1,11 +1,11 @@
 //! Maps without tags, by wall segments and the Radon transform (Saeedi et al.).
 
-use grid_merge::{Merged, PlacedMap};
-use ogm_core::{OccupancyGrid, Outcome, Se2};
+use grid_merge::{FusionParams, Merged, PlacedMap};
+use ogm_core::{OccupancyGrid, Outcome, Progress, Se2, Stage};
 use radon_merge::{RadonMatch, RadonParams, find_transform};
 
 use crate::MergeError;
-use crate::align::at_resolution;
+use crate::resolution::{at_resolution, coarser};
 
 /// A team's maps in the frame of the first.
 #[derive(Debug, Clone)]
@@ -22,16 +22,17 @@ pub struct TeamMerge {
 /// Maps of different resolution are both brought to the coarser one for this.
 ///
 /// # Errors
-/// Input that cannot be meant; maps that do not match are a refused outcome.
+/// Input that cannot be meant, or a call that was cancelled; maps that do not match are a refused outcome.
 pub fn align_by_radon(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
     params: &RadonParams,
+    progress: &dyn Progress,
 ) -> Result<RadonMatch, MergeError> {
-    let resolution = target.frame().resolution().max(source.frame().resolution());
+    let resolution = coarser(target, source);
     let target = at_resolution(target, resolution, &params.thresholds)?;
     let source = at_resolution(source, resolution, &params.thresholds)?;
-    Ok(find_transform(&target, &source, params)?)
+    Ok(find_transform(&target, &source, params, progress)?)
 }
 
 /// Aligns every map of `others` to `first` and fuses them in its frame, as the paper does with
@@ -40,21 +41,24 @@ pub fn align_by_radon(
 /// A map that was refused stays out; its match says why.
 ///
 /// # Errors
-/// Input that cannot be meant.
+/// Input that cannot be meant, or a call that was cancelled.
 pub fn merge_by_radon(
     first: &OccupancyGrid,
     others: &[&OccupancyGrid],
     params: &RadonParams,
-    fusion: &grid_merge::MergeParams,
+    fusion: &FusionParams,
+    progress: &dyn Progress,
 ) -> Result<TeamMerge, MergeError> {
     let mut matches = Vec::with_capacity(others.len());
     let mut placed = vec![PlacedMap { map: first, reference_from_map: Se2::identity() }];
-    for &other in others {
-        let found = align_by_radon(first, other, params)?;
+    let share = |map: usize| 0.9 * map as f64 / others.len() as f64;
+    for (map, &other) in others.iter().enumerate() {
+        let part = Stage::new(progress, share(map), share(map + 1));
+        let found = align_by_radon(first, other, params, &part)?;
         if let Outcome::Found(first_from_other) = found.outcome {
             placed.push(PlacedMap { map: other, reference_from_map: first_from_other });
         }
         matches.push(found);
     }
-    Ok(TeamMerge { matches, merged: grid_merge::merge(&placed, fusion)? })
+    Ok(TeamMerge { matches, merged: grid_merge::merge(&placed, fusion, &Stage::new(progress, 0.9, 1.0))? })
 }

@@ -1,10 +1,10 @@
 //! The recipe of Carpin and Birk: two maps and a rough start, no tags.
 
 use carpin_walk::{Alignment, RandomWalk};
-use ogm_core::{OccupancyGrid, Outcome, Se2};
+use ogm_core::{OccupancyGrid, Outcome, Progress, Se2};
 
 use crate::MergeError;
-use crate::align::at_resolution;
+use crate::resolution::{at_resolution, coarser};
 
 /// Parameters of [`align_carpin`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -34,24 +34,24 @@ pub struct CarpinReport {
 /// from a rough start (Carpin and Birk, *Stochastic map merging in rescue environments*).
 ///
 /// Maps of different resolution are both brought to the coarser one for this, and to the least of
-/// `params` if that is coarser. Unlike the methods
-/// with tags it never says that two maps do not match: a walk always ends somewhere.
+/// `params` if that is coarser. It never says that two maps do not match: a walk always ends
+/// somewhere.
 ///
 /// # Errors
-/// Input that cannot be meant; a valid pair that holds too little is a refused outcome.
+/// Input that cannot be meant, or a call that was cancelled; a valid pair that holds too little is a refused outcome.
 pub fn align_carpin(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
     start_target_from_source: Se2,
     params: &CarpinParams,
+    progress: &dyn Progress,
 ) -> Result<CarpinReport, MergeError> {
-    let resolution = target.frame().resolution().max(source.frame().resolution());
-    let resolution = resolution.max(params.min_resolution);
+    let resolution = coarser(target, source).max(params.min_resolution);
     let thresholds = &params.search.distance.thresholds;
     let target = at_resolution(target, resolution, thresholds)?;
     let source = at_resolution(source, resolution, thresholds)?;
     let start = start_target_from_source;
-    let outcome = carpin_walk::align(&target, &source, start, &params.rules, &params.search)?;
+    let outcome = carpin_walk::align(&target, &source, start, &params.rules, &params.search, progress)?;
     Ok(CarpinReport { resolution, start_target_from_source, outcome })
 }
 
@@ -76,7 +76,7 @@ mod tests {
         let start = Se2::about(centre, 0.1, Vector2::new(1.0, -1.0)) * truth;
         for (min_resolution, resolution) in [(0.0, 0.28), (0.35, 0.35)] {
             let params = CarpinParams { min_resolution, ..CarpinParams::default() };
-            let report = align_carpin(&target.map, &source.map, start, &params).unwrap();
+            let report = align_carpin(&target.map, &source.map, start, &params, &()).unwrap();
             assert_eq!(report.resolution, resolution);
             let found = report.outcome.found().unwrap().target_from_source;
             let error = (found * (truth.inverse() * centre) - centre).norm();
@@ -88,7 +88,7 @@ mod tests {
     fn a_map_of_nothing_is_refused() {
         let frame = ogm_core::GridFrame::new(0.14, Se2::identity()).unwrap();
         let map = ogm_core::OccupancyGrid::from_ascii(frame, "???\n???").unwrap();
-        let report = align_carpin(&map, &map, Se2::identity(), &CarpinParams::default()).unwrap();
+        let report = align_carpin(&map, &map, Se2::identity(), &CarpinParams::default(), &()).unwrap();
         let expected = Refusal::TooLittleStructure { have: 0, need: 1 };
         assert_eq!(report.outcome.refusal(), Some(&expected));
     }

@@ -1,0 +1,70 @@
+//! The answer about a pair of maps.
+
+use serde::{Serialize, Serializer};
+
+use super::rows;
+use super::stages::StagesJson;
+use crate::{Hypothesis, PairReport, PoseDegrees, Verdict};
+
+#[derive(Serialize)]
+struct PairJson<'a> {
+    verdict: Verdict,
+    /// Why not, unless merged.
+    reason: Option<String>,
+    /// The best transform found, accepted or not.
+    target_from_source: Option<PoseDegrees>,
+    probability: Option<f64>,
+    overlap: Option<f64>,
+    agreement: Option<f64>,
+    hypotheses: &'a [Hypothesis],
+    method: &'static str,
+    seed: u64,
+    warnings: Vec<String>,
+    stages: StagesJson,
+}
+
+impl Serialize for PairReport {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let pair = PairJson {
+            verdict: self.verdict(),
+            reason: self.outcome.refusal().map(ToString::to_string),
+            target_from_source: self.target_from_source.map(PoseDegrees::from),
+            probability: self.probability(),
+            overlap: self.overlap,
+            agreement: self.agreement,
+            hypotheses: &self.hypotheses,
+            method: self.method.name(),
+            seed: self.seed,
+            warnings: self.warnings.iter().map(ToString::to_string).collect(),
+            stages: StagesJson::from(&self.stages),
+        };
+        pair.serialize(serializer)
+    }
+}
+
+impl Serialize for Verdict {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.serialize_str(self.name())
+    }
+}
+
+#[derive(Serialize)]
+struct HypothesisJson {
+    #[serde(flatten)]
+    pose: PoseDegrees,
+    probability: Option<f64>,
+    score: f64,
+    covariance: Option<[[f64; 3]; 3]>,
+}
+
+impl Serialize for Hypothesis {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let hypothesis = HypothesisJson {
+            pose: self.target_from_source.into(),
+            probability: self.probability,
+            score: self.score,
+            covariance: self.covariance.as_ref().map(rows),
+        };
+        hypothesis.serialize(serializer)
+    }
+}

@@ -1,0 +1,197 @@
+//! The front door: two maps and a method in, one report out.
+
+use grid_match::{MatchParams, Prior, match_maps};
+use ogm_core::{Outcome, Progress, Refusal, Se2, Stage};
+use radon_merge::{Candidate, RadonParams};
+use rfid_loc::{common_tags, select_tags};
+
+use crate::report::{Hypothesis, Stages};
+use crate::schedule::walk_coarse_to_fine;
+use crate::segments::align_by_radon;
+use crate::tagged::align_by_tags;
+use crate::{
+    AlignParams, MergeError, Method, PairReport, RfidParams, RobotMap, TagMethod, Warning,
+};
+
+/// Finds the transform that maps points of `source` into the frame of `target`.
+///
+/// Every decision about a pair of maps is taken here: which method [`Method::Auto`] is, what
+/// stands in where it refuses, where a walk starts, and whether its end is believed. The maps may
+/// differ in resolution, origin and yaw.
+///
+/// Maps that hold the same cells in the same place are taken for copies, and
+/// [`Method::Match`] looks for them at the identity only: no second robot repeats every cell of
+/// the first, so the other ways to lay a symmetric building on itself are no rivals.
+///
+/// # Errors
+/// Input that cannot be meant, or a call that was cancelled; a valid pair that holds too little
+/// is a refused outcome.
+pub fn align_pair(
+    method: Method,
+    target: &RobotMap<'_>,
+    source: &RobotMap<'_>,
+    params: &AlignParams,
+    progress: &dyn Progress,
+) -> Result<PairReport, MergeError> {
+    let pair = Pair { target, source, params };
+    let mut report = match method {
+        Method::Auto => pair.by_what_there_is(progress),
+        Method::Match => pair.by_maps(progress),
+        Method::Tags(method) => pair.by_tags(method, progress),
+        Method::Carpin => pair.by_walk(progress),
+        Method::Radon => pair.by_segments(progress),
+    }?;
+    if pair.are_copies() {
+        report.warnings.push(Warning::Copies);
+    }
+    progress.report(1.0);
+    Ok(report)
+}
+
+/// What every method is given.
+#[derive(Debug, Clone, Copy)]
+struct Pair<'a> {
+    target: &'a RobotMap<'a>,
+    source: &'a RobotMap<'a>,
+    params: &'a AlignParams,
+}
+
+impl Pair<'_> {
+    fn by_what_there_is(&self, progress: &dyn Progress) -> Result<PairReport, MergeError> {
+        if self.target.tags.is_empty() && self.source.tags.is_empty() {
+            return self.by_maps(progress);
+        }
+        let common = common_tags(self.target.tags, self.source.tags)?;
+        let lacking = select_tags(&common, &self.params.rfid.selection).refusal().cloned();
+        let (refusal, tags) = match lacking {
+            Some(lacking) => (lacking, None),
+            None => {
+                let by_tags = self.by_tags(TagMethod::Rfid3, &Stage::new(progress, 0.0, 0.6))?;
+                match by_tags.outcome {
+                    Outcome::Refused(refusal) => (refusal, by_tags.stages.tags),
+                    Outcome::Found(_) => {
+                        let mut report = by_tags;
+                        let unused = self.params.prior.map(|_| Warning::PriorUnused);
+                        report.warnings.extend(unused);
+                        return Ok(report);
+                    }
+                }
+            }
+        };
+        let mut report = self.by_maps(&Stage::new(progress, 0.6, 1.0))?;
+        report.warnings.insert(0, Warning::WithoutTags(refusal));
+        report.stages.tags = tags;
+        Ok(report)
+    }
+
+    fn by_maps(&self, progress: &dyn Progress) -> Result<PairReport, MergeError> {
+        let at_identity = || Prior {
+            target_from_source: Se2::identity(),
+            sigma_m: self.target.map.frame().resolution(),
+            sigma_rad: 0.5_f64.to_radians(),
+        };
+        let prior = self.params.prior.or_else(|| self.are_copies().then(at_identity));
+        let matching = MatchParams { prior, ..self.params.matching.clone() };
+        let found = match_maps(self.target.map, self.source.map, &matching, progress)?;
+        let best = found.hypotheses.first();
+        Ok(PairReport {
+            method: Method::Match,
+            seed: self.params.seed,
+            outcome: found.outcome.clone(),
+            target_from_source: best.map(|best| best.pose.target_from_source),
+            overlap: best.map(|best| best.overlap),
+            agreement: best.map(|best| best.agreement),
+            hypotheses: found.hypotheses.iter().map(Hypothesis::from).collect(),
+            warnings: Vec::new(),
+            stages: Stages { matching: Some(found), ..Stages::default() },
+        })
+    }
+
+    fn by_tags(
+        &self,
+        method: TagMethod,
+        progress: &dyn Progress,
+    ) -> Result<PairReport, MergeError> {
+        let given = &self.params.rfid;
+        let lines = line_ransac::Params { seed: self.params.seed, ..given.lines.clone() };
+        let params = RfidParams { lines, ..given.clone() };
+        let found = align_by_tags(method, self.target, self.source, &params, progress)?;
+        let best = match &found.outcome {
+            Outcome::Found(target_from_source) => Some(*target_from_source),
+            Outcome::Refused(_) => found.evidence.start_target_from_source,
+        };
+        let warnings = found.evidence.warnings();
+        let stages = Stages { tags: Some(found.evidence), ..Stages::default() };
+        let report = self.scored(Method::Tags(method), found.outcome, best, stages)?;
+        Ok(PairReport { warnings, ..report })
+    }
+
+    /// A walk always ends somewhere: refused unless the maps make that likelier right than wrong.
+    fn by_walk(&self, progress: &dyn Progress) -> Result<PairReport, MergeError> {
+        let [target, source] = [self.target.map, self.source.map];
+        let (prior, seed) = (self.params.prior.as_ref(), self.params.seed);
+        let walks = walk_coarse_to_fine(target, source, prior, seed, progress)?;
+        let outcome = walks.last().map_or(
+            Outcome::Refused(Refusal::TooLittleStructure { have: 0, need: 1 }),
+            |last| match &last.outcome {
+                Outcome::Found(found) => Outcome::Found(found.target_from_source),
+                Outcome::Refused(refusal) => Outcome::Refused(refusal.clone()),
+            },
+        );
+        let best = outcome.clone().found();
+        let stages = Stages { walks, ..Stages::default() };
+        let mut report = self.scored(Method::Carpin, outcome, best, stages)?;
+        let log_odds = report.hypotheses.first().map(|best| best.score);
+        if let Some(log_odds) = log_odds.filter(|&log_odds| log_odds <= 0.0) {
+            let probability = 1.0 / (1.0 + (-log_odds).exp());
+            report.outcome = Outcome::Refused(Refusal::Unlikely { probability, need: 0.5 });
+        }
+        Ok(report)
+    }
+
+    fn by_segments(&self, progress: &dyn Progress) -> Result<PairReport, MergeError> {
+        let params = RadonParams { seed: self.params.seed, ..self.params.radon.clone() };
+        let found = align_by_radon(self.target.map, self.source.map, &params, progress)?;
+        let verified = found.candidates.iter().find(|candidate| candidate.verified);
+        let best = match &found.outcome {
+            Outcome::Found(target_from_source) => Some(*target_from_source),
+            Outcome::Refused(_) => {
+                verified.or(found.candidates.first()).map(Candidate::target_from_source)
+            }
+        };
+        let outcome = found.outcome.clone();
+        let stages = Stages { radon: Some(found), ..Stages::default() };
+        self.scored(Method::Radon, outcome, best, stages)
+    }
+
+    /// The report of a method that knows one transform at most, accepted or not, and no
+    /// probability.
+    fn scored(
+        &self,
+        method: Method,
+        outcome: Outcome<Se2>,
+        target_from_source: Option<Se2>,
+        stages: Stages,
+    ) -> Result<PairReport, MergeError> {
+        let thresholds = &self.params.matching.thresholds;
+        let maps = [self.target.map, self.source.map];
+        let scored = target_from_source
+            .map(|target_from_source| Hypothesis::scored(maps, target_from_source, thresholds))
+            .transpose()?;
+        Ok(PairReport {
+            method,
+            seed: self.params.seed,
+            outcome,
+            target_from_source,
+            overlap: scored.as_ref().map(|(_, evidence)| evidence.overlap),
+            agreement: scored.as_ref().map(|(_, evidence)| evidence.agreement()),
+            hypotheses: scored.into_iter().map(|(hypothesis, _)| hypothesis).collect(),
+            warnings: Vec::new(),
+            stages,
+        })
+    }
+
+    fn are_copies(&self) -> bool {
+        self.target.map == self.source.map
+    }
+}

@@ -1,0 +1,41 @@
+//! What makes an answer less sure than it looks.
+
+use ogm_core::Refusal;
+
+/// What makes an answer less sure than it looks.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The maps place the tags at different distances from each other.
+    #[error("the maps disagree about the distances between tags: one may have been moved")]
+    TagsMismatch,
+    /// The walls of one map have no common direction.
+    #[error("the walls of one map are hardly rectangular")]
+    WeakWalls,
+    /// One map has walls of a single direction.
+    #[error("one map has walls of a single direction")]
+    SingleWallDirection,
+    /// Tags and walls differ by more than 20 degrees.
+    #[error("tags and walls differ by more than 20 degrees")]
+    QuadrantResidual,
+    /// The common walls leave one direction open.
+    #[error(
+        "the common walls leave one direction open, as in a corridor; along it the tags decide"
+    )]
+    Unobservable,
+    /// The refinement did not settle.
+    #[error("the refinement did not settle within its iterations")]
+    NotSettled,
+    /// The refinement could not improve on its start.
+    #[error("the refinement could not improve on its start, which was kept")]
+    NotImproved,
+    /// The tags that there are gave no answer, so the maps were matched without them.
+    #[error("the maps were matched without their tags: {0}")]
+    WithoutTags(Refusal),
+    /// The tags gave the answer, and a prior has no use there.
+    #[error("the tags suffice, so the prior was not used; the method `match` uses it")]
+    PriorUnused,
+    /// Both maps hold the same cells in the same place.
+    #[error("both maps hold the same cells in the same place: copies of one map, not two robots' maps")]
+    Copies,
+}

@@ -2,7 +2,7 @@
 
 use std::cmp::Ordering;
 
-use ogm_core::{OccupancyGrid, Outcome, Refusal, Se2};
+use ogm_core::{OccupancyGrid, Outcome, Refusal, RelativePose, Se2};
 
 use crate::MatchError;
 use crate::bounds::Bounds;
@@ -131,12 +131,14 @@ fn hypothesis(
     let (covariance, weak_direction) =
         covariance(target, source, &target_local_from_source_local, scale);
     Hypothesis {
-        target_from_source: target.map_from_local
-            * target_local_from_source_local
-            * source.map_from_local.inverse(),
-        probability: probability(modes, index),
+        pose: RelativePose {
+            target_from_source: target.map_from_local
+                * target_local_from_source_local
+                * source.map_from_local.inverse(),
+            covariance,
+            probability: probability(modes, index),
+        },
         score,
-        covariance,
         weak_direction,
         overlap: evidence.overlap,
         agreement: evidence.agreement(),
@@ -149,13 +151,13 @@ fn outcome(hypotheses: &[Hypothesis], resolution: f64, params: &MatchParams) -> 
     let Some(best) = hypotheses.first() else {
         return Outcome::Refused(Refusal::NoOverlap { have: 0, need: cells(params.min_wall_m) });
     };
-    if best.probability >= params.accept {
-        return Outcome::Found(best.target_from_source);
+    if best.pose.probability >= params.accept {
+        return Outcome::Found(best.pose.target_from_source);
     }
     let poses = hypotheses.iter().filter(|other| other.score > FLOOR).count();
     let evidence = &best.evidence;
     let against = evidence.near_miss_m + evidence.conflict_m;
-    let (probability, need) = (best.probability, params.accept);
+    let (probability, need) = (best.pose.probability, params.accept);
     Outcome::Refused(if poses > 1 {
         Refusal::SeveralPoses { poses, probability, need }
     } else if against > evidence.hit_m * 0.35 {

@@ -2,7 +2,7 @@
 
 use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid};
 
-use crate::MergeError;
+use crate::FusionError;
 use crate::evidence::{ByteOfLogOdds, LogOddsOfByte};
 
 /// `map` at `resolution` metres a cell, same origin pose: what two maps of different resolution
@@ -19,7 +19,7 @@ pub fn coarsen(
     map: &OccupancyGrid,
     resolution: f64,
     thresholds: &ClassThresholds,
-) -> Result<OccupancyGrid, MergeError> {
+) -> Result<OccupancyGrid, FusionError> {
     let frame = GridFrame::new(resolution, map.frame().map_from_grid())?;
     if frame.same_resolution(map.frame()) {
         return Ok(map.clone());
@@ -28,7 +28,7 @@ pub fn coarsen(
     let ratio = resolution / have;
     if ratio < 1.0 {
         let asked = resolution;
-        return Err(MergeError::FinerThanSource { have, asked });
+        return Err(FusionError::FinerThanSource { have, asked });
     }
     let width = coarse_cell(map.width() - 1, ratio) + 1;
     let height = coarse_cell(map.height() - 1, ratio) + 1;
@@ -96,7 +96,7 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::coarsen;
-    use crate::MergeError;
+    use crate::FusionError;
     use ogm_core::{CellClass, ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
     use proptest::prelude::{Just, prop, prop_assert, prop_assert_eq, prop_oneof, proptest};
 
@@ -132,10 +132,10 @@ mod tests {
         let (source, thresholds) = (map(0.05, "#.?"), ClassThresholds::default());
         assert_eq!(coarsen(&source, f64::from(0.05_f32), &thresholds).unwrap(), source);
         let finer = coarsen(&source, 0.04, &thresholds);
-        assert_eq!(finer, Err(MergeError::FinerThanSource { have: 0.05, asked: 0.04 }));
+        assert_eq!(finer, Err(FusionError::FinerThanSource { have: 0.05, asked: 0.04 }));
         for resolution in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let bad = coarsen(&source, resolution, &thresholds);
-            assert!(matches!(bad, Err(MergeError::Grid(_))), "{resolution}");
+            assert!(matches!(bad, Err(FusionError::Grid(_))), "{resolution}");
         }
         assert_eq!(coarsen(&source, 1e300, &thresholds).unwrap().to_ascii(), "#\n");
     }

@@ -8,7 +8,7 @@ use crate::gaps::blur_coverage;
 use crate::lattice::Footprint;
 use crate::mapping::{Layer, Source};
 use crate::merge::{check_pose, check_scatter};
-use crate::{GapTreatment, Mapping, MergeError, MergeParams};
+use crate::{FusionError, FusionParams, GapTreatment, Mapping};
 
 /// A coverage field and where it lies.
 #[derive(Debug, Clone, Copy)]
@@ -34,8 +34,8 @@ pub struct PlacedCoverage<'a> {
 pub fn merge_coverage(
     fields: &[PlacedCoverage<'_>],
     onto: &OccupancyGrid,
-    params: &MergeParams,
-) -> Result<Grid<bool>, MergeError> {
+    params: &FusionParams,
+) -> Result<Grid<bool>, FusionError> {
     let lattice = onto.frame();
     let output = Footprint::of_grid((onto.width(), onto.height()));
     let mut union = onto.cells().map(|_| false);

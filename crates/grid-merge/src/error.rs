@@ -5,7 +5,7 @@ use ogm_core::GridError;
 /// A merge that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum MergeError {
+pub enum FusionError {
     /// No map to take the output's lattice from.
     #[error("nothing to merge: at least one map is needed")]
     NoMaps,

@@ -9,7 +9,7 @@ use crate::fuse::Fused;
 use crate::gaps::{blur_everywhere, blur_free, mean_of_majority};
 use crate::lattice::{Footprint, output_lattice};
 use crate::mapping::{Layer, Source};
-use crate::{GapTreatment, Interpolation, Mapping, MergeError, MergeParams, coarsen};
+use crate::{FusionError, FusionParams, GapTreatment, Interpolation, Mapping, coarsen};
 
 /// A map and where it lies.
 #[derive(Debug, Clone, Copy)]
@@ -38,13 +38,13 @@ pub struct Merged {
 /// The output is the bounding box of all maps, with yaw 0. Where the first map has yaw 0 in the
 /// reference frame and no other resolution is asked for, its lattice is kept and its cells are
 /// copied; so are those of every map that lies on that lattice. All others are resampled by
-/// [`MergeParams::mapping`], those of finer resolution after [`coarsen`]. By Tsardoulias et al.,
+/// [`FusionParams::mapping`], those of finer resolution after [`coarsen`]. By Tsardoulias et al.,
 /// section 4.4; there the second map is transformed and the first stays.
 ///
 /// # Errors
 /// No map, a pose that is not finite, an output over the size limit or of no usable resolution,
 /// and forward mapping of a map that is coarser than the output.
-pub fn merge(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<Merged, MergeError> {
+pub fn merge(maps: &[PlacedMap<'_>], params: &FusionParams) -> Result<Merged, FusionError> {
     let lattice = lattice_of(maps, params)?;
     let prepared: Vec<_> = maps
         .iter()
@@ -64,7 +64,7 @@ pub fn merge(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<Merged, Mer
         .iter()
         .copied()
         .reduce(|bounds, footprint| bounds.union(&footprint))
-        .ok_or(MergeError::NoMaps)?;
+        .ok_or(FusionError::NoMaps)?;
 
     // Refuses an output over the size limit before anything of its size exists.
     let mut fused = Fused::blank(bounds.size())?;
@@ -93,8 +93,8 @@ pub fn merge(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<Merged, Mer
 pub fn transform_grid(
     source: &OccupancyGrid,
     target_from_source: &Se2,
-    params: &MergeParams,
-) -> Result<OccupancyGrid, MergeError> {
+    params: &FusionParams,
+) -> Result<OccupancyGrid, FusionError> {
     let placed = PlacedMap { map: source, reference_from_map: *target_from_source };
     let lattice = lattice_of(&[placed], params)?;
     let map = not_finer(0, source, &lattice, params)?;
@@ -105,8 +105,8 @@ pub fn transform_grid(
 }
 
 /// The output's lattice, once it is clear that all poses can be meant.
-fn lattice_of(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<GridFrame, MergeError> {
-    let first = maps.first().ok_or(MergeError::NoMaps)?;
+fn lattice_of(maps: &[PlacedMap<'_>], params: &FusionParams) -> Result<GridFrame, FusionError> {
+    let first = maps.first().ok_or(FusionError::NoMaps)?;
     for (index, placed) in maps.iter().enumerate() {
         check_pose(index, &placed.reference_from_map)?;
     }
@@ -115,11 +115,11 @@ fn lattice_of(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<GridFrame,
     Ok(output_lattice(first.map.frame(), size, pose, params.resolution)?)
 }
 
-pub(crate) fn check_pose(map: usize, reference_from_map: &Se2) -> Result<(), MergeError> {
+pub(crate) fn check_pose(map: usize, reference_from_map: &Se2) -> Result<(), FusionError> {
     if reference_from_map.is_finite() {
         Ok(())
     } else {
-        Err(MergeError::NonFinitePose {
+        Err(FusionError::NonFinitePose {
             map,
             x: reference_from_map.x(),
             y: reference_from_map.y(),
@@ -134,11 +134,11 @@ pub(crate) fn check_scatter(
     frame: &GridFrame,
     lattice: &GridFrame,
     mapping: &Mapping,
-) -> Result<(), MergeError> {
+) -> Result<(), FusionError> {
     let (have, output) = (frame.resolution(), lattice.resolution());
     let scatters = matches!(mapping, Mapping::Forward { .. });
     if scatters && have > output && !frame.same_resolution(lattice) {
-        return Err(MergeError::TooCoarseToScatter { map, have, output });
+        return Err(FusionError::TooCoarseToScatter { map, have, output });
     }
     Ok(())
 }
@@ -148,8 +148,8 @@ fn not_finer<'a>(
     index: usize,
     map: &'a OccupancyGrid,
     lattice: &GridFrame,
-    params: &MergeParams,
-) -> Result<Cow<'a, OccupancyGrid>, MergeError> {
+    params: &FusionParams,
+) -> Result<Cow<'a, OccupancyGrid>, FusionError> {
     check_scatter(index, map.frame(), lattice, &params.mapping)?;
     let finer = map.frame().resolution() < lattice.resolution();
     if finer && !map.frame().same_resolution(lattice) {
@@ -167,8 +167,8 @@ fn resample<'a>(
     source: Source<'a, Occupancy>,
     lattice: &GridFrame,
     footprint: &Footprint,
-    params: &MergeParams,
-) -> Result<Cow<'a, Grid<Occupancy>>, MergeError> {
+    params: &FusionParams,
+) -> Result<Cow<'a, Grid<Occupancy>>, FusionError> {
     let bilinear = params.mapping == Mapping::Inverse(Interpolation::Bilinear);
     if bilinear && !footprint.whole_cells {
         let warped = warp_bilinear(
@@ -184,7 +184,7 @@ fn resample<'a>(
     Ok(source.onto(lattice, footprint, &params.mapping, Occupancy::UNKNOWN, fill)?)
 }
 
-fn blurred(cells: Grid<Occupancy>, params: &MergeParams) -> Grid<Occupancy> {
+fn blurred(cells: Grid<Occupancy>, params: &FusionParams) -> Grid<Occupancy> {
     match params.mapping {
         Mapping::Forward { gaps: GapTreatment::BlurEverywhere, .. } => blur_everywhere(&cells),
         Mapping::Forward { gaps: GapTreatment::PrintedCondition, .. } => {

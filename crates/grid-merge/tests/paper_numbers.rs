@@ -2,7 +2,7 @@
 //! Tags & Topological Information*.
 
 use grid_merge::{
-    ForwardRounding, GapTreatment, Mapping, MergeParams, PlacedMap, merge, transform_grid,
+    ForwardRounding, FusionParams, GapTreatment, Mapping, PlacedMap, merge, transform_grid,
 };
 use nalgebra::{Point2, Vector2};
 use ogm_core::{CellIndex, ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
@@ -18,8 +18,8 @@ fn unit_map(
     OccupancyGrid::new(frame, Grid::new(width, height, cells).expect("a valid grid"))
 }
 
-fn forward(rounding: ForwardRounding, gaps: GapTreatment) -> MergeParams {
-    MergeParams { mapping: Mapping::Forward { rounding, gaps }, ..MergeParams::default() }
+fn forward(rounding: ForwardRounding, gaps: GapTreatment) -> FusionParams {
+    FusionParams { mapping: Mapping::Forward { rounding, gaps }, ..FusionParams::default() }
 }
 
 fn is_known(map: &OccupancyGrid, column: i64, row: i64) -> bool {
@@ -112,7 +112,7 @@ fn t_f2_the_gap_share_of_forward_mapping_is_that_of_the_formula() {
 
         let target_from_source = Se2::new(0.3, 0.7, angle);
         let scattered = transform_grid(&field, &target_from_source, &params).unwrap();
-        let inverse = MergeParams::default();
+        let inverse = FusionParams::default();
         let footprint = transform_grid(&field, &target_from_source, &inverse).unwrap();
         let is_gap = |index: CellIndex| {
             let (column, row) = (index.column.cast_signed() as i64, index.row.cast_signed() as i64);
@@ -176,8 +176,9 @@ fn t_f3_gap_treatments_of_a_rotated_field_with_a_wall() {
     });
     let centre = Point2::new(100.0, 100.0);
     let target_from_source = Se2::about(centre, 30_f64.to_radians(), Vector2::new(0.3, 0.7));
-    let moved = |params: &MergeParams| transform_grid(&field, &target_from_source, params).unwrap();
-    let inverse = moved(&MergeParams::default());
+    let moved =
+        |params: &FusionParams| transform_grid(&field, &target_from_source, params).unwrap();
+    let inverse = moved(&FusionParams::default());
     let treated = |gaps| moved(&forward(ForwardRounding::Centre, gaps));
 
     // One map that lies on the output's lattice is copied, so a merge of it is one more blur.

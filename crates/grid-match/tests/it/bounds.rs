@@ -39,7 +39,7 @@ fn nothing_outside_three_sigmas_of_a_prior_is_returned() {
             let report = match_maps(a, b, &believing(prior, 0.5, 0.1)).unwrap();
             assert!(report.outcome.refusal().is_some(), "{:?}", report.outcome);
             for hypothesis in &report.hypotheses {
-                let pose = hypothesis.target_from_source;
+                let pose = hypothesis.pose.target_from_source;
                 assert!((pose.translation() - prior.translation()).norm() <= 1.5);
                 assert!(wrap_angle(pose.theta() - prior.theta()).abs() <= 0.3);
             }

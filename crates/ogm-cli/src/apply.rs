@@ -1,7 +1,7 @@
 //! `ogm apply`: a map in another frame.
 
 use anyhow::Context;
-use grid_merge::{MergeParams, transform_grid};
+use grid_merge::{FusionParams, transform_grid};
 use ogm_io::{WriteOptions, write_map};
 
 use crate::args::ApplyArgs;
@@ -15,7 +15,7 @@ pub(crate) fn run(args: &ApplyArgs) -> anyhow::Result<Ending> {
     output::check(&[&args.output, &image], &input.paths(), args.force)?;
     let moved = {
         let _progress = Progress::start("moving", args.quiet);
-        transform_grid(input.map(), &args.transform.into(), &MergeParams::default())
+        transform_grid(input.map(), &args.transform.into(), &FusionParams::default())
             .with_context(|| format!("cannot move {} by --transform", input.name()))?
     };
     let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };

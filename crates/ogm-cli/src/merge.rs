@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use anyhow::Context;
-use grid_merge::{MergeParams, Merged, PlacedMap};
+use grid_merge::{FusionParams, Merged, PlacedMap};
 use ogm_core::Se2;
 use ogm_io::{WriteOptions, write_file, write_map};
 use serde::Serialize;
@@ -159,7 +159,7 @@ fn fused(
         None => return Ok(None),
     }
     let fusion = args.fusion.rule();
-    let params = MergeParams { fusion, resolution: args.resolution, ..MergeParams::default() };
+    let params = FusionParams { fusion, resolution: args.resolution, ..FusionParams::default() };
     Ok(Some(grid_merge::merge(&placed, &params)?))
 }
 

@@ -114,17 +114,17 @@ fn by_maps(target: Robot<'_>, source: Robot<'_>, args: &SearchArgs) -> anyhow::R
     let best = report.hypotheses.first();
     Ok(Found {
         method: "match",
-        target_from_source: best.map(|best| best.target_from_source),
+        target_from_source: best.map(|best| best.pose.target_from_source),
         overlap: best.map(|best| best.overlap),
         agreement: best.map(|best| best.agreement),
         hypotheses: report
             .hypotheses
             .iter()
             .map(|hypothesis| Hypothesis {
-                pose: Pose::from(hypothesis.target_from_source),
-                probability: Some(hypothesis.probability),
+                pose: Pose::from(hypothesis.pose.target_from_source),
+                probability: Some(hypothesis.pose.probability),
                 score: hypothesis.score,
-                covariance: Some(hypothesis.covariance.into()),
+                covariance: Some(hypothesis.pose.covariance.into()),
             })
             .collect(),
         outcome: report.outcome,

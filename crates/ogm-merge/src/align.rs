@@ -87,7 +87,7 @@ pub(crate) fn fuse_pair(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
     outcome: &Outcome<Se2>,
-    fusion: &grid_merge::MergeParams,
+    fusion: &grid_merge::FusionParams,
 ) -> Result<Option<Merged>, MergeError> {
     let Outcome::Found(target_from_source) = outcome else { return Ok(None) };
     let placed = [

@@ -20,7 +20,7 @@ pub enum MergeError {
     Walk(#[from] carpin_walk::WalkError),
     /// The fusion.
     #[error(transparent)]
-    Fusion(#[from] grid_merge::MergeError),
+    Fusion(#[from] grid_merge::FusionError),
     /// The search for a transform.
     #[error(transparent)]
     Matching(#[from] grid_match::MatchError),

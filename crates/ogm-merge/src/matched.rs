@@ -18,7 +18,7 @@ pub fn merge_matched(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
     matching: &MatchParams,
-    fusion: &grid_merge::MergeParams,
+    fusion: &grid_merge::FusionParams,
 ) -> Result<(MatchReport, Option<Merged>), MergeError> {
     let report = match_maps(target, source, matching)?;
     let merged = fuse_pair(target, source, &report.outcome, fusion)?;
@@ -45,7 +45,7 @@ mod tests {
     fn maps_of_one_floor_are_fused_and_those_of_two_are_not() {
         let here = simulate_pair(&FloorPlan::random(3).unwrap(), &world(3)).unwrap();
         let there = simulate_pair(&FloorPlan::random(4).unwrap(), &world(4)).unwrap();
-        let fusion = grid_merge::MergeParams::default();
+        let fusion = grid_merge::FusionParams::default();
         let merge = |source| {
             merge_matched(&here.target.map, source, &MatchParams::default(), &fusion).unwrap()
         };

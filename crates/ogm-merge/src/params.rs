@@ -64,5 +64,5 @@ pub struct MergeParams {
     /// How the transform is found.
     pub rfid: RfidParams,
     /// How the cells are fused once it is.
-    pub fusion: grid_merge::MergeParams,
+    pub fusion: grid_merge::FusionParams,
 }

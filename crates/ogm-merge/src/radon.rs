@@ -45,7 +45,7 @@ pub fn merge_by_radon(
     first: &OccupancyGrid,
     others: &[&OccupancyGrid],
     params: &RadonParams,
-    fusion: &grid_merge::MergeParams,
+    fusion: &grid_merge::FusionParams,
 ) -> Result<TeamMerge, MergeError> {
     let mut matches = Vec::with_capacity(others.len());
     let mut placed = vec![PlacedMap { map: first, reference_from_map: Se2::identity() }];

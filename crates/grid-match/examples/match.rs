@@ -12,7 +12,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..PairParams::default()
     };
     let pair = simulate_pair(&FloorPlan::random(7)?, &world)?;
-    let report = match_maps(&pair.target.map, &pair.source.map, &MatchParams::default())?;
+    let report = match_maps(&pair.target.map, &pair.source.map, &MatchParams::default(), &())?;
 
     for hypothesis in &report.hypotheses {
         let pose = hypothesis.pose.target_from_source;

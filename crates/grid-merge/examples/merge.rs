@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         PlacedMap { map: &first, reference_from_map: Se2::identity() },
         PlacedMap { map: &second, reference_from_map: Se2::new(0.40, -0.15, FRAC_PI_2) },
     ];
-    let merged = merge(&placed, &FusionParams::default())?;
+    let merged = merge(&placed, &FusionParams::default(), &())?;
     print!("{}", merged.map.to_ascii());
     println!(
         "{} of {} cells known to both are in conflict",

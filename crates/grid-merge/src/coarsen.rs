@@ -1,6 +1,6 @@
 //! A map at a coarser resolution that still has its thin walls.
 
-use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid};
+use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Progress, Steps};
 
 use crate::FusionError;
 use crate::evidence::{ByteOfLogOdds, LogOddsOfByte};
@@ -20,6 +20,16 @@ pub fn coarsen(
     resolution: f64,
     thresholds: &ClassThresholds,
 ) -> Result<OccupancyGrid, FusionError> {
+    coarsen_in_rows(map, resolution, thresholds, &())
+}
+
+/// [`coarsen`] that can be cancelled between rows.
+pub(crate) fn coarsen_in_rows(
+    map: &OccupancyGrid,
+    resolution: f64,
+    thresholds: &ClassThresholds,
+    progress: &dyn Progress,
+) -> Result<OccupancyGrid, FusionError> {
     let frame = GridFrame::new(resolution, map.frame().map_from_grid())?;
     if frame.same_resolution(map.frame()) {
         return Ok(map.clone());
@@ -38,6 +48,7 @@ pub fn coarsen(
     let rounding = ByteOfLogOdds::new();
     let columns: Vec<usize> = (0..map.width()).map(|column| coarse_cell(column, ratio)).collect();
     let mut tallies = vec![Tally::default(); width];
+    let done = Steps::new(progress, height);
     let mut fine_rows = map.cells().rows().enumerate().peekable();
     for (row, output) in coarse.cells_mut().chunks_exact_mut(width).enumerate() {
         tallies.fill(Tally::default());
@@ -49,6 +60,7 @@ pub fn coarsen(
                 }
             }
         }
+        done.step()?;
         for (cell, tally) in output.iter_mut().zip(&tallies) {
             if let Some(mean) = tally.mean() {
                 *cell = rounding.round(mean);

@@ -1,6 +1,6 @@
 //! What cannot be merged.
 
-use ogm_core::GridError;
+use ogm_core::{Cancelled, GridError};
 
 /// A merge that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -44,4 +44,7 @@ pub enum FusionError {
     /// An output that is no grid, by its size or its resolution.
     #[error(transparent)]
     Grid(#[from] GridError),
+    /// The merge was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }

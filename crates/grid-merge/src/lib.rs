@@ -16,7 +16,7 @@
 //!     PlacedMap { map: &left, reference_from_map: Se2::identity() },
 //!     PlacedMap { map: &right, reference_from_map: Se2::new(0.10, 0.0, 0.0) },
 //! ];
-//! let merged = merge(&placed, &FusionParams::default())?;
+//! let merged = merge(&placed, &FusionParams::default(), &())?;
 //! assert_eq!(merged.map.to_ascii(), "######\n#....#\n######\n");
 //! assert_eq!((merged.compared, merged.conflict_count), (3, 0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())

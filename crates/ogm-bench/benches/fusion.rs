@@ -42,7 +42,7 @@ fn warp_and_fuse(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements((map.width() * map.height()) as u64));
         group.bench_function(*name, |bencher| {
             bencher.iter(|| {
-                let merged = merge(black_box(&placed), &FusionParams::default());
+                let merged = merge(black_box(&placed), &FusionParams::default(), &());
                 merged.expect("the box of both is no larger than a grid may be")
             });
         });

@@ -105,7 +105,7 @@ proptest! {
     #[test]
     fn noise_is_never_merged_and_never_panics(target in any_map(), source in any_map()) {
         let params = MatchParams { min_wall_m: 0.0, ..MatchParams::default() };
-        let report = match_maps(&target, &source, &params).unwrap();
+        let report = match_maps(&target, &source, &params, &()).unwrap();
         assert!(report.outcome.refusal().is_some(), "{:?}", report.outcome);
     }
 }

@@ -103,7 +103,7 @@ pub(crate) fn right_part(walls: &[Wall], world_from_map: Se2) -> OccupancyGrid {
 }
 
 pub(crate) fn matched(target: &OccupancyGrid, source: &OccupancyGrid) -> MatchReport {
-    match_maps(target, source, &MatchParams::default()).unwrap()
+    match_maps(target, source, &MatchParams::default(), &()).unwrap()
 }
 
 pub(crate) fn found(target: &OccupancyGrid, source: &OccupancyGrid) -> Se2 {

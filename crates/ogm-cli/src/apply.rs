@@ -15,7 +15,7 @@ pub(crate) fn run(args: &ApplyArgs) -> anyhow::Result<Ending> {
     output::check(&[&args.output, &image], &input.paths(), args.force)?;
     let moved = {
         let _progress = Progress::start("moving", args.quiet);
-        transform_grid(input.map(), &args.transform.into(), &FusionParams::default())
+        transform_grid(input.map(), &args.transform.into(), &FusionParams::default(), &())
             .with_context(|| format!("cannot move {} by --transform", input.name()))?
     };
     let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };

@@ -44,6 +44,6 @@ impl Found {
 
 fn evidence(maps: [&OccupancyGrid; 2], target_from_source: &Se2) -> anyhow::Result<Evidence> {
     let thresholds = ClassThresholds::default();
-    let [target, source] = maps.map(|map| PreparedMap::new(map, &thresholds));
-    Ok(score_pose(&target, &source, target_from_source)?)
+    let [target, source] = maps.map(|map| PreparedMap::new(map, &thresholds, &()));
+    Ok(score_pose(&target?, &source?, target_from_source)?)
 }

@@ -160,7 +160,7 @@ fn fused(
     }
     let fusion = args.fusion.rule();
     let params = FusionParams { fusion, resolution: args.resolution, ..FusionParams::default() };
-    Ok(Some(grid_merge::merge(&placed, &params)?))
+    Ok(Some(grid_merge::merge(&placed, &params, &())?))
 }
 
 fn components(pair: &PairAnswer) -> Vec<Component> {

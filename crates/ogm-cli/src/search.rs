@@ -110,7 +110,7 @@ fn by_maps(target: Robot<'_>, source: Robot<'_>, args: &SearchArgs) -> anyhow::R
     });
     let prior = given.or_else(|| are_copies(target, source).then(|| at_identity(target)));
     let params = MatchParams { accept: args.accept, prior, ..MatchParams::default() };
-    let report = match_maps(target.input.map(), source.input.map(), &params)?;
+    let report = match_maps(target.input.map(), source.input.map(), &params, &())?;
     let best = report.hypotheses.first();
     Ok(Found {
         method: "match",

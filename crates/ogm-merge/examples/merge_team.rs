@@ -8,8 +8,8 @@ use rfid_loc::{FilterParams, localise};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pair = simulate_pair(&FloorPlan::plan_a(), &PairParams::default())?;
-    let target_tags = localise(&pair.target.readings, &FilterParams::default())?;
-    let source_tags = localise(&pair.source.readings, &FilterParams::default())?;
+    let target_tags = localise(&pair.target.readings, &FilterParams::default(), &())?;
+    let source_tags = localise(&pair.source.readings, &FilterParams::default(), &())?;
     let target = RobotMap { map: &pair.target.map, tags: &target_tags };
     let source = RobotMap { map: &pair.source.map, tags: &source_tags };
 

@@ -94,7 +94,7 @@ pub(crate) fn fuse_pair(
         PlacedMap { map: target, reference_from_map: Se2::identity() },
         PlacedMap { map: source, reference_from_map: *target_from_source },
     ];
-    Ok(Some(grid_merge::merge(&placed, fusion)?))
+    Ok(Some(grid_merge::merge(&placed, fusion, &())?))
 }
 
 pub(crate) fn at_resolution<'a>(

@@ -51,7 +51,7 @@ pub fn align_carpin(
     let target = at_resolution(target, resolution, thresholds)?;
     let source = at_resolution(source, resolution, thresholds)?;
     let start = start_target_from_source;
-    let outcome = carpin_walk::align(&target, &source, start, &params.rules, &params.search)?;
+    let outcome = carpin_walk::align(&target, &source, start, &params.rules, &params.search, &())?;
     Ok(CarpinReport { resolution, start_target_from_source, outcome })
 }
 

@@ -17,8 +17,8 @@
 //! let sparse = LidarParams { beams: 181, ..LidarParams::rf() };
 //! let world = PairParams { seed: 1, lidar: sparse, ..PairParams::default() };
 //! let pair = simulate_pair(&FloorPlan::plan_a(), &world)?;
-//! let target_tags = localise(&pair.target.readings, &FilterParams::default())?;
-//! let source_tags = localise(&pair.source.readings, &FilterParams::default())?;
+//! let target_tags = localise(&pair.target.readings, &FilterParams::default(), &())?;
+//! let source_tags = localise(&pair.source.readings, &FilterParams::default(), &())?;
 //!
 //! let target = RobotMap { map: &pair.target.map, tags: &target_tags };
 //! let source = RobotMap { map: &pair.source.map, tags: &source_tags };

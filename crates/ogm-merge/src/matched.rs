@@ -20,7 +20,7 @@ pub fn merge_matched(
     matching: &MatchParams,
     fusion: &grid_merge::FusionParams,
 ) -> Result<(MatchReport, Option<Merged>), MergeError> {
-    let report = match_maps(target, source, matching)?;
+    let report = match_maps(target, source, matching, &())?;
     let merged = fuse_pair(target, source, &report.outcome, fusion)?;
     Ok((report, merged))
 }

@@ -31,7 +31,7 @@ pub fn align_by_radon(
     let resolution = target.frame().resolution().max(source.frame().resolution());
     let target = at_resolution(target, resolution, &params.thresholds)?;
     let source = at_resolution(source, resolution, &params.thresholds)?;
-    Ok(find_transform(&target, &source, params)?)
+    Ok(find_transform(&target, &source, params, &())?)
 }
 
 /// Aligns every map of `others` to `first` and fuses them in its frame, as the paper does with
@@ -56,5 +56,5 @@ pub fn merge_by_radon(
         }
         matches.push(found);
     }
-    Ok(TeamMerge { matches, merged: grid_merge::merge(&placed, fusion)? })
+    Ok(TeamMerge { matches, merged: grid_merge::merge(&placed, fusion, &())? })
 }

@@ -28,8 +28,8 @@ impl World {
         };
         let pair = simulate_pair(&FloorPlan::plan_a(), &params).unwrap();
         let filter = FilterParams::default();
-        let target_tags = localise(&pair.target.readings, &filter).unwrap();
-        let source_tags = localise(&pair.source.readings, &filter).unwrap();
+        let target_tags = localise(&pair.target.readings, &filter, &()).unwrap();
+        let source_tags = localise(&pair.source.readings, &filter, &()).unwrap();
         Self { pair, target_tags, source_tags }
     }
 

@@ -101,7 +101,7 @@ fn judge(
     seed: u64,
     pair: &LabelledPair,
 ) -> anyhow::Result<Judged> {
-    let report = match_maps(&pair.target, &pair.source, &MatchParams::default())?;
+    let report = match_maps(&pair.target, &pair.source, &MatchParams::default(), &())?;
     let hypotheses: Vec<Best> = report
         .hypotheses
         .iter()

@@ -147,5 +147,5 @@ fn fuse(
         PlacedMap { map: target, reference_from_map: Se2::identity() },
         PlacedMap { map: source, reference_from_map: target_from_source },
     ];
-    Ok(merge(&maps, params)?.map)
+    Ok(merge(&maps, params, &())?.map)
 }

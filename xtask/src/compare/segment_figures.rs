@@ -19,7 +19,7 @@ const GAP: u32 = 8;
 pub(super) fn draw(maps: &[OccupancyGrid; 3]) -> anyhow::Result<Vec<Figure>> {
     let [first, second, third] = maps;
     let params = RadonParams::default();
-    let found = find_transform(first, second, &params)?;
+    let found = find_transform(first, second, &params, &())?;
     let mut figures = Vec::new();
     let shown = found.accepted.unwrap_or(0);
     if let (Some(stages), Some(candidate)) = (&found.maps, found.candidates.get(shown)) {

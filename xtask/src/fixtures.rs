@@ -90,7 +90,7 @@ mod tests {
         let read = |name: &str| {
             let map = ogm_io::read_map(&folder.join(format!("{name}.yaml"))).unwrap().map;
             let readings = ogm_io::read_tags(&folder.join(format!("{name}.tags.csv"))).unwrap();
-            (map, localise(&readings, &FilterParams::default()).unwrap())
+            (map, localise(&readings, &FilterParams::default(), &()).unwrap())
         };
         let (target, target_tags) = read("target");
         let (source, source_tags) = read("source");

@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
 
     let start = Se2::new(0.2, -0.15, 0.1) * source_from_target.inverse();
     let params = Params { walks: 4, ..Params::default() };
-    match align(&target, &source, start, &RandomWalk::default(), &params)? {
+    match align(&target, &source, start, &RandomWalk::default(), &params, &())? {
         Outcome::Found(found) => {
             for (number, sample) in (1..).zip(&found.trace).step_by(20) {
                 println!(

@@ -1,8 +1,8 @@
 //! The front door: walks over the transforms between two maps.
 
-use ogm_core::{GridError, OccupancyGrid, Outcome, Refusal, Se2};
+use ogm_core::{GridError, OccupancyGrid, Outcome, Progress, Refusal, Se2, Steps};
 
-use crate::walk::{Budget, Walk, random_walk};
+use crate::walk::{Budget, Walk, walk};
 use crate::{Around, End, MapDistance, Params, Rules, Sample, SearchBox, WalkError};
 
 /// Where a source map lies in a target map, and how the search got there.
@@ -40,16 +40,31 @@ pub struct Alignment {
 /// walk came by a place where they can be compared.
 ///
 /// # Errors
-/// Maps of different resolution, a start that is not finite or outside the search box, or a
-/// parameter outside its range.
+/// Maps of different resolution, a start that is not finite or outside the search box, a
+/// parameter outside its range, or [`WalkError::Cancelled`].
 pub fn align<R: Rules + Sync + ?Sized>(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
     start_target_from_source: Se2,
     rules: &R,
     params: &Params,
+    progress: &dyn Progress,
+) -> Result<Outcome<Alignment>, WalkError> {
+    let outcome = search(target, source, start_target_from_source, rules, params, progress)?;
+    progress.report(1.0);
+    Ok(outcome)
+}
+
+fn search<R: Rules + Sync + ?Sized>(
+    target: &OccupancyGrid,
+    source: &OccupancyGrid,
+    start_target_from_source: Se2,
+    rules: &R,
+    params: &Params,
+    progress: &dyn Progress,
 ) -> Result<Outcome<Alignment>, WalkError> {
     params.check()?;
+    progress.go_on(0.0)?;
     let mut distance = MapDistance::new(target, source, &params.distance)?;
     let start = start_target_from_source;
     if !start.is_finite() {
@@ -72,12 +87,13 @@ pub fn align<R: Rules + Sync + ?Sized>(
         return Ok(Outcome::Refused(Refusal::TooLittleStructure { have, need: 1 }));
     }
 
-    let walk = |stream| {
+    let samples = Steps::new(progress, params.walks.saturating_mul(params.samples));
+    let one = |stream| {
         let mut distance = distance.clone();
         let budget = Budget { samples: params.samples, seed: params.seed, stream };
-        random_walk(|at| distance.psi_at(at).psi, place, &space, rules, &budget)
+        walk(|at| distance.psi_at(at).psi, place, &space, rules, &budget, &samples)
     };
-    let walks = each_stream(params.walks as u64, walk)?;
+    let walks = each_stream(params.walks as u64, one)?;
     let bests: Vec<f64> = walks.iter().map(|walk| walk.best_psi).collect();
     let winner = walks.into_iter().reduce(
         |best, walk| {

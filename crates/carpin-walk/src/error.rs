@@ -1,6 +1,6 @@
 //! What cannot be meant as a search.
 
-use ogm_core::GridError;
+use ogm_core::{Cancelled, GridError};
 
 /// Maps, a start or parameters that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,6 +9,9 @@ pub enum WalkError {
     /// Maps of different resolution, or a transform that is not finite.
     #[error(transparent)]
     Grid(#[from] GridError),
+    /// The search was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// A start that the search would not accept as a sample.
     #[error(
         "the start ({x:.1}, {y:.1}) cells, {turn:.1}° lies outside the search box of ±({reach_x:.1}, {reach_y:.1}) cells, ±{reach_turn:.1}° around its centre; widen the box or centre it on the start"

@@ -15,7 +15,7 @@
 //! let map = OccupancyGrid::from_ascii(frame, room)?;
 //!
 //! let start = Se2::new(0.1, -0.2, 0.02);
-//! let found = align(&map, &map, start, &RandomWalk::default(), &Params::default())?;
+//! let found = align(&map, &map, start, &RandomWalk::default(), &Params::default(), &())?;
 //! let found = found.found().expect("there is a room");
 //! assert!(found.psi < 0.1 * found.start_psi);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -45,7 +45,7 @@ pub use distance::{Dissimilarity, MapDistance, psi};
 pub use error::WalkError;
 pub use params::{Around, DistanceParams, Objective, Params};
 pub use random_walk::{Acceptance, Drift, RandomWalk, Spread, TurnUnit};
-pub use rules::{Progress, Rules};
+pub use rules::{Rules, WalkState};
 pub use space::{Placement, SearchBox};
 pub use special_cases::{Annealing, HillClimbing};
 pub use walk::{Budget, End, Sample, Walk, random_walk};

@@ -2,7 +2,7 @@
 
 use ogm_core::wrap_period;
 
-use crate::{Progress, Rules};
+use crate::{Rules, WalkState};
 
 /// The rules of Carpin and Birk, section 4.
 ///
@@ -91,7 +91,7 @@ impl TurnUnit {
 }
 
 impl Rules for RandomWalk {
-    fn acceptance(&self, sample_psi: f64, so_far: &Progress<'_>) -> f64 {
+    fn acceptance(&self, sample_psi: f64, so_far: &WalkState<'_>) -> f64 {
         let best = so_far.best_psi;
         if best.is_infinite() {
             // Nothing is known yet that could be lost.
@@ -103,7 +103,7 @@ impl Rules for RandomWalk {
         }
     }
 
-    fn mean(&self, so_far: &Progress<'_>, gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3] {
+    fn mean(&self, so_far: &WalkState<'_>, gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3] {
         let unit = self.turn_unit.degrees();
         let [x, y, turn] = match self.drift {
             Drift::Downhill => gradient().map(|slope| -slope),
@@ -119,7 +119,7 @@ impl Rules for RandomWalk {
         [x, y, turn * unit]
     }
 
-    fn deviation(&self, so_far: &Progress<'_>) -> [f64; 3] {
+    fn deviation(&self, so_far: &WalkState<'_>) -> [f64; 3] {
         let searching = so_far.rejected_in_a_row > 0 && self.spread == Spread::AfterRejection;
         let variance = if searching { self.far_variance } else { self.near_variance };
         let deviation = variance.sqrt();
@@ -128,7 +128,7 @@ impl Rules for RandomWalk {
 }
 
 /// The mean of the last `steps` steps that were accepted, as far as there are any.
-fn mean_step(so_far: &Progress<'_>, steps: usize) -> [f64; 3] {
+fn mean_step(so_far: &WalkState<'_>, steps: usize) -> [f64; 3] {
     let last = so_far.accepted.len().saturating_sub(1);
     let from = last.saturating_sub(steps);
     let mut sum = [0.0; 3];
@@ -149,11 +149,11 @@ pub(crate) fn unit_vector(vector: [f64; 3]) -> [f64; 3] {
 #[cfg(test)]
 mod tests {
     use super::{Acceptance, Drift, RandomWalk, Spread, TurnUnit};
-    use crate::{Progress, Rules};
+    use crate::{Rules, WalkState};
 
-    fn at_best(best_psi: f64, rejected_in_a_row: usize) -> Progress<'static> {
+    fn at_best(best_psi: f64, rejected_in_a_row: usize) -> WalkState<'static> {
         let accepted = &[[0.0; 3], [3.0, 4.0, 0.0], [3.0, 4.0, 0.0]];
-        Progress { samples: 5, current_psi: best_psi, best_psi, accepted, rejected_in_a_row }
+        WalkState { samples: 5, current_psi: best_psi, best_psi, accepted, rejected_in_a_row }
     }
 
     #[test]

@@ -12,20 +12,20 @@ pub trait Rules {
     /// The mass f_k that the random selector gives to a sample that is not better than where the
     /// walk stands; a better one is always taken. Outside [0, 1] it counts as the nearer end, and
     /// what is not a number as 0.
-    fn acceptance(&self, sample_psi: f64, so_far: &Progress<'_>) -> f64;
+    fn acceptance(&self, sample_psi: f64, so_far: &WalkState<'_>) -> f64;
 
     /// μ_k: where the next sample lies on average, from where the walk stands; cells, cells,
     /// degrees. `gradient` estimates that of ψ there, per cell, cell and degree: six evaluations of
     /// ψ, kept until the walk moves on.
-    fn mean(&self, so_far: &Progress<'_>, gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3];
+    fn mean(&self, so_far: &WalkState<'_>, gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3];
 
     /// Square roots of the diagonal of Σ_k; cells, cells, degrees.
-    fn deviation(&self, so_far: &Progress<'_>) -> [f64; 3];
+    fn deviation(&self, so_far: &WalkState<'_>) -> [f64; 3];
 }
 
 /// A walk up to the sample that is about to be drawn or judged.
 #[derive(Debug, Clone, Copy)]
-pub struct Progress<'a> {
+pub struct WalkState<'a> {
     /// Samples generated before this one.
     pub samples: usize,
     /// ψ where the walk stands.

@@ -1,7 +1,7 @@
 //! Hill climbing and simulated annealing as rules of the walk.
 
 use crate::random_walk::unit_vector;
-use crate::{Progress, Rules};
+use crate::{Rules, WalkState};
 
 /// Hill climbing: Σ tends to zero and μ follows the gradient (Carpin and Birk, section 2).
 ///
@@ -21,17 +21,17 @@ impl Default for HillClimbing {
 }
 
 impl Rules for HillClimbing {
-    fn acceptance(&self, _sample_psi: f64, _so_far: &Progress<'_>) -> f64 {
+    fn acceptance(&self, _sample_psi: f64, _so_far: &WalkState<'_>) -> f64 {
         0.0
     }
 
-    fn mean(&self, so_far: &Progress<'_>, gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3] {
+    fn mean(&self, so_far: &WalkState<'_>, gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3] {
         let halvings = i32::try_from(so_far.rejected_in_a_row).unwrap_or(i32::MAX);
         let length = self.step * 0.5_f64.powi(halvings);
         unit_vector(gradient()).map(|part| -length * part)
     }
 
-    fn deviation(&self, _so_far: &Progress<'_>) -> [f64; 3] {
+    fn deviation(&self, _so_far: &WalkState<'_>) -> [f64; 3] {
         [0.0; 3]
     }
 }
@@ -64,7 +64,7 @@ impl Annealing {
 }
 
 impl Rules for Annealing {
-    fn acceptance(&self, sample_psi: f64, so_far: &Progress<'_>) -> f64 {
+    fn acceptance(&self, sample_psi: f64, so_far: &WalkState<'_>) -> f64 {
         if so_far.current_psi.is_infinite() {
             return 1.0;
         }
@@ -72,11 +72,11 @@ impl Rules for Annealing {
         if worse == 0.0 { 1.0 } else { (-worse / self.temperature(so_far.samples)).exp() }
     }
 
-    fn mean(&self, _so_far: &Progress<'_>, _gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3] {
+    fn mean(&self, _so_far: &WalkState<'_>, _gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3] {
         [0.0; 3]
     }
 
-    fn deviation(&self, _so_far: &Progress<'_>) -> [f64; 3] {
+    fn deviation(&self, _so_far: &WalkState<'_>) -> [f64; 3] {
         [self.deviation; 3]
     }
 }
@@ -84,13 +84,13 @@ impl Rules for Annealing {
 #[cfg(test)]
 mod tests {
     use super::Annealing;
-    use crate::{Progress, Rules};
+    use crate::{Rules, WalkState};
 
     #[test]
     fn annealing_takes_worse_samples_while_it_is_warm() {
         let rules = Annealing { initial_temperature: 2.0, cooling: 0.5, deviation: 1.0 };
         let chance = |samples| {
-            let so_far = Progress {
+            let so_far = WalkState {
                 samples,
                 current_psi: 10.0,
                 best_psi: 1.0,

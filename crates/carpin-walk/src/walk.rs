@@ -1,10 +1,11 @@
 //! Algorithm 1: the Gaussian random walk.
 
+use ogm_core::{Progress, Steps};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, StandardNormal};
 
-use crate::{Placement, Progress, Rules, SearchBox, WalkError};
+use crate::{Placement, Rules, SearchBox, WalkError, WalkState};
 
 /// Steps of the central differences: one cell, one cell, one degree.
 const GRADIENT_STEP: f64 = 1.0;
@@ -74,13 +75,29 @@ pub enum End {
 /// means bounded.
 ///
 /// # Errors
-/// A start outside the box.
+/// A start outside the box, or [`WalkError::Cancelled`].
 pub fn random_walk<R: Rules + ?Sized>(
+    psi: impl FnMut(&Placement) -> f64,
+    start: Placement,
+    space: &SearchBox,
+    rules: &R,
+    budget: &Budget,
+    progress: &dyn Progress,
+) -> Result<Walk, WalkError> {
+    let samples = Steps::new(progress, budget.samples);
+    let walk = walk(psi, start, space, rules, budget, &samples)?;
+    progress.report(1.0);
+    Ok(walk)
+}
+
+/// [`random_walk`] that counts its samples among those of others.
+pub(crate) fn walk<R: Rules + ?Sized>(
     mut psi: impl FnMut(&Placement) -> f64,
     start: Placement,
     space: &SearchBox,
     rules: &R,
     budget: &Budget,
+    done: &Steps<'_>,
 ) -> Result<Walk, WalkError> {
     let start = space.check_start(start)?;
     let mut rng = ChaCha8Rng::seed_from_u64(budget.seed);
@@ -101,7 +118,7 @@ pub fn random_walk<R: Rules + ?Sized>(
         }
         let current = accepted[accepted.len() - 1];
         let so_far =
-            Progress { samples, current_psi, best_psi, accepted: &accepted, rejected_in_a_row };
+            WalkState { samples, current_psi, best_psi, accepted: &accepted, rejected_in_a_row };
         let mut gradient = || {
             *slope.get_or_insert_with(|| {
                 evaluations += 6;
@@ -123,7 +140,7 @@ pub fn random_walk<R: Rules + ?Sized>(
         {
             (best, best_psi) = (at, sample_psi);
         }
-        let so_far = Progress { best_psi, ..so_far };
+        let so_far = WalkState { best_psi, ..so_far };
         let taken = inside.filter(|&(_, sample_psi)| {
             sample_psi < current_psi || luck < rules.acceptance(sample_psi, &so_far)
         });
@@ -142,6 +159,7 @@ pub fn random_walk<R: Rules + ?Sized>(
             current_psi,
             best_psi,
         });
+        done.step()?;
     }
     if best_psi == 0.0 {
         end = End::OptimumFound;
@@ -165,7 +183,7 @@ fn gradient_at(at: &Placement, psi: &mut impl FnMut(&Placement) -> f64) -> [f64;
 #[cfg(test)]
 mod tests {
     use super::{Budget, End, random_walk};
-    use crate::{Acceptance, Annealing, HillClimbing, Progress, RandomWalk, Rules, SearchBox};
+    use crate::{Acceptance, Annealing, HillClimbing, RandomWalk, Rules, SearchBox, WalkState};
     use crate::{WalkError, walk::Walk};
 
     const SPACE: SearchBox = SearchBox { centre: [0.0; 3], reach: [20.0, 20.0, 180.0] };
@@ -176,7 +194,7 @@ mod tests {
 
     fn walk(rules: &dyn Rules, seed: u64) -> Walk {
         let budget = Budget { samples: 200, seed, stream: 0 };
-        random_walk(valley, [0.0; 3], &SPACE, rules, &budget).unwrap()
+        random_walk(valley, [0.0; 3], &SPACE, rules, &budget, &()).unwrap()
     }
 
     #[test]
@@ -208,7 +226,7 @@ mod tests {
         assert_eq!(walk(&rules, 5), walk(&rules, 5));
         assert_ne!(walk(&rules, 5).best, walk(&rules, 6).best);
         let budget = Budget { samples: 200, seed: 5, stream: 1 };
-        let other = random_walk(valley, [0.0; 3], &SPACE, &rules, &budget).unwrap();
+        let other = random_walk(valley, [0.0; 3], &SPACE, &rules, &budget, &()).unwrap();
         assert_ne!(walk(&rules, 5).best, other.best);
     }
 
@@ -216,15 +234,15 @@ mod tests {
     struct Cautious(RandomWalk);
 
     impl Rules for Cautious {
-        fn acceptance(&self, _sample_psi: f64, _so_far: &Progress<'_>) -> f64 {
+        fn acceptance(&self, _sample_psi: f64, _so_far: &WalkState<'_>) -> f64 {
             f64::NAN
         }
 
-        fn mean(&self, so_far: &Progress<'_>, gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3] {
+        fn mean(&self, so_far: &WalkState<'_>, gradient: &mut dyn FnMut() -> [f64; 3]) -> [f64; 3] {
             self.0.mean(so_far, gradient)
         }
 
-        fn deviation(&self, so_far: &Progress<'_>) -> [f64; 3] {
+        fn deviation(&self, so_far: &WalkState<'_>) -> [f64; 3] {
             self.0.deviation(so_far)
         }
     }
@@ -242,10 +260,10 @@ mod tests {
         let corner = SearchBox { centre: [0.0; 3], reach: [0.0, 0.0, 180.0] };
         let budget = Budget { samples: 50, seed: 1, stream: 0 };
         let found =
-            random_walk(valley, [0.0; 3], &corner, &RandomWalk::default(), &budget).unwrap();
+            random_walk(valley, [0.0; 3], &corner, &RandomWalk::default(), &budget, &()).unwrap();
         assert!(found.trace.iter().all(|sample| sample.psi.is_none() && !sample.accepted));
         assert_eq!((found.best, found.evaluations), ([0.0; 3], 7));
-        let outside = random_walk(valley, [1.0; 3], &corner, &RandomWalk::default(), &budget);
+        let outside = random_walk(valley, [1.0; 3], &corner, &RandomWalk::default(), &budget, &());
         assert!(matches!(outside, Err(WalkError::StartOutside { .. })));
     }
 
@@ -253,14 +271,15 @@ mod tests {
     fn a_perfect_match_ends_the_walk_and_a_plateau_is_walked_across() {
         let budget = Budget { samples: 50, seed: 1, stream: 0 };
         let rules = RandomWalk::default();
-        let found = random_walk(|_| 0.0, [0.0; 3], &SPACE, &rules, &budget).unwrap();
+        let found = random_walk(|_| 0.0, [0.0; 3], &SPACE, &rules, &budget, &()).unwrap();
         assert_eq!((found.end, found.trace.len()), (End::OptimumFound, 0));
-        let flat = random_walk(|_| 7.0, [0.0; 3], &SPACE, &rules, &budget).unwrap();
+        let flat = random_walk(|_| 7.0, [0.0; 3], &SPACE, &rules, &budget, &()).unwrap();
         assert!(flat.trace.iter().all(|sample| sample.accepted || sample.psi.is_none()));
         let printed = RandomWalk { acceptance: Acceptance::AsPrinted, ..rules };
-        let stuck = random_walk(|_| 7.0, [0.0; 3], &SPACE, &printed, &budget).unwrap();
+        let stuck = random_walk(|_| 7.0, [0.0; 3], &SPACE, &printed, &budget, &()).unwrap();
         assert!(stuck.trace.iter().all(|sample| !sample.accepted));
-        let nowhere = random_walk(|_| f64::INFINITY, [0.0; 3], &SPACE, &rules, &budget).unwrap();
+        let nowhere =
+            random_walk(|_| f64::INFINITY, [0.0; 3], &SPACE, &rules, &budget, &()).unwrap();
         assert!(nowhere.trace.iter().any(|sample| sample.accepted), "it looks around");
     }
 }

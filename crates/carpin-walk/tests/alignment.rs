@@ -50,13 +50,13 @@ fn a_rough_start_is_brought_home_forward_and_backward() {
     let (target, source, truth) = pair();
     let start = turned_by(truth, 5.0, 8.0);
     let rules = RandomWalk::default();
-    let forward = found(align(&target, &source, start, &rules, &params()).unwrap());
+    let forward = found(align(&target, &source, start, &rules, &params(), &()).unwrap());
     let error = error_m(forward.target_from_source, truth);
     assert!(error <= TOLERANCE, "{error:.3} m, ψ {} from {}", forward.psi, forward.start_psi);
     let turn = forward.target_from_source.between(&truth).theta().to_degrees();
     assert!(turn.abs() < 1.6, "{turn}");
 
-    let backward = align(&source, &target, start.inverse(), &rules, &params()).unwrap();
+    let backward = align(&source, &target, start.inverse(), &rules, &params(), &()).unwrap();
     let error = error_m(found(backward).target_from_source.inverse(), truth);
     assert!(error <= TOLERANCE, "{error:.3} m backward");
 }
@@ -66,13 +66,13 @@ fn other_frames_of_the_same_cells_change_nothing_but_the_frame() {
     let (target, source, truth) = pair();
     let start = turned_by(truth, 4.0, -6.0);
     let rules = RandomWalk::default();
-    let here = found(align(&target, &source, start, &rules, &params()).unwrap());
+    let here = found(align(&target, &source, start, &rules, &params(), &()).unwrap());
 
     let moved_from_source = Se2::new(31.0, -7.0, 2.2);
     let frame = GridFrame::new(RESOLUTION, moved_from_source * source.frame().map_from_grid());
     let moved = OccupancyGrid::new(frame.unwrap(), source.cells().clone());
     let start_target_from_moved = start * moved_from_source.inverse();
-    let there = align(&target, &moved, start_target_from_moved, &rules, &params()).unwrap();
+    let there = align(&target, &moved, start_target_from_moved, &rules, &params(), &()).unwrap();
     let there = found(there).target_from_source * moved_from_source;
     assert!(error_m(there, here.target_from_source) < 1e-6);
 }
@@ -83,7 +83,7 @@ fn the_same_seed_gives_the_same_bits_and_more_walks_never_a_worse_answer() {
     let start = turned_by(truth, 6.0, 5.0);
     let walks = |walks| {
         let params = Params { walks, samples: 60, ..params() };
-        found(align(&target, &source, start, &RandomWalk::default(), &params).unwrap())
+        found(align(&target, &source, start, &RandomWalk::default(), &params, &()).unwrap())
     };
     assert_eq!(walks(3), walks(3));
     let (one, three) = (walks(1), walks(3));
@@ -100,7 +100,9 @@ fn any_number_of_threads_gives_the_same_bits() {
     let on = |threads| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
         let params = Params { walks: 5, samples: 40, ..params() };
-        pool.install(|| align(&target, &source, start, &RandomWalk::default(), &params).unwrap())
+        pool.install(|| {
+            align(&target, &source, start, &RandomWalk::default(), &params, &()).unwrap()
+        })
     };
     assert_eq!(on(1), on(3));
 }
@@ -111,11 +113,11 @@ fn the_special_cases_improve_on_their_start_too() {
     let start = turned_by(truth, 5.0, 8.0);
     let rules: [&(dyn Rules + Sync); 2] = [&HillClimbing::default(), &Annealing::default()];
     for rules in rules {
-        let found = found(align(&target, &source, start, rules, &params()).unwrap());
+        let found = found(align(&target, &source, start, rules, &params(), &()).unwrap());
         assert!(found.psi < 0.6 * found.start_psi, "{} from {}", found.psi, found.start_psi);
     }
     let printed = RandomWalk { acceptance: Acceptance::AsPrinted, ..RandomWalk::default() };
-    let found = found(align(&target, &source, start, &printed, &params()).unwrap());
+    let found = found(align(&target, &source, start, &printed, &params(), &()).unwrap());
     assert!(found.trace.iter().all(|sample| sample.current_psi == sample.best_psi), "descent");
 }
 
@@ -128,7 +130,7 @@ fn small(picture: &str) -> OccupancyGrid {
 fn maps_with_nothing_in_common_are_refused() {
     let walk = |a: &str, b: &str| {
         let (a, b) = (small(a), small(b));
-        align(&a, &b, Se2::identity(), &RandomWalk::default(), &Params::default()).unwrap()
+        align(&a, &b, Se2::identity(), &RandomWalk::default(), &Params::default(), &()).unwrap()
     };
     for (a, b) in [("??\n??", "??\n??"), ("??\n??", "#.\n##"), ("..\n..", "##\n##"), ("?", "?")] {
         let refusal = walk(a, b);
@@ -155,14 +157,15 @@ fn maps_laid_side_by_side_are_refused_where_only_the_overlap_counts() {
         ..Params::default()
     };
     let start = Se2::new(2.0, 0.0, 0.0);
-    let outcome = align(&room, &room, start, &RandomWalk::default(), &params).unwrap();
+    let outcome = align(&room, &room, start, &RandomWalk::default(), &params, &()).unwrap();
     assert_eq!(outcome.refusal(), Some(&Refusal::NoOverlap { have: 0, need: 1 }));
 }
 
 #[test]
 fn what_cannot_be_meant_is_an_error() {
     let room = small("####\n#..#\n####");
-    let walk = |start, params: &Params| align(&room, &room, start, &RandomWalk::default(), params);
+    let walk =
+        |start, params: &Params| align(&room, &room, start, &RandomWalk::default(), params, &());
     let params = Params::default();
     let far = walk(Se2::new(5.0, 0.0, 0.0), &params);
     assert!(matches!(far, Err(WalkError::StartOutside { .. })), "{far:?}");
@@ -178,6 +181,7 @@ fn what_cannot_be_meant_is_an_error() {
         assert!(matches!(error, Err(WalkError::InvalidParameter { .. })), "{error:?}");
     }
     let coarse = OccupancyGrid::from_ascii(GridFrame::new(0.2, Se2::identity()).unwrap(), "#.");
-    let mixed = align(&room, &coarse.unwrap(), Se2::identity(), &RandomWalk::default(), &params);
+    let mixed =
+        align(&room, &coarse.unwrap(), Se2::identity(), &RandomWalk::default(), &params, &());
     assert!(matches!(mixed, Err(WalkError::Grid(_))));
 }

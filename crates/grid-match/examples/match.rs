@@ -12,16 +12,16 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         ..PairParams::default()
     };
     let pair = simulate_pair(&FloorPlan::random(7)?, &world)?;
-    let report = match_maps(&pair.target.map, &pair.source.map, &MatchParams::default())?;
+    let report = match_maps(&pair.target.map, &pair.source.map, &MatchParams::default(), &())?;
 
     for hypothesis in &report.hypotheses {
-        let pose = hypothesis.target_from_source;
+        let pose = hypothesis.pose.target_from_source;
         println!(
             "{:7.3} m {:7.3} m {:8.3}°  probability {:.3}  overlap {:.2}  agreement {:.2}",
             pose.x(),
             pose.y(),
             pose.theta().to_degrees(),
-            hypothesis.probability,
+            hypothesis.pose.probability,
             hypothesis.overlap,
             hypothesis.agreement,
         );

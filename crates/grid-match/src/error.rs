@@ -1,5 +1,7 @@
 //! What cannot be meant as a matching problem.
 
+use ogm_core::Cancelled;
+
 /// Parameters that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -24,4 +26,7 @@ pub enum MatchError {
         /// Rotation, radians.
         theta: f64,
     },
+    /// The search was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }

@@ -33,10 +33,10 @@
 //! let map = |x| OccupancyGrid::from_ascii(GridFrame::new(0.25, Se2::new(x, 0.0, 0.0))?, picture);
 //! let (target, source) = (map(0.0)?, map(40.0)?);
 //!
-//! let report = match_maps(&target, &source, &MatchParams::default())?;
+//! let report = match_maps(&target, &source, &MatchParams::default(), &())?;
 //! let target_from_source = report.outcome.found().expect("one flat");
 //! assert!((target_from_source.x() + 40.0).abs() < 0.01);
-//! assert!(report.hypotheses[0].probability > 0.9);
+//! assert!(report.hypotheses[0].pose.probability > 0.9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!

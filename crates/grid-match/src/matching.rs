@@ -2,7 +2,9 @@
 
 use std::cmp::Ordering;
 
-use ogm_core::{OccupancyGrid, Outcome, Refusal, Se2};
+use ogm_core::{
+    Cancelled, OccupancyGrid, Outcome, Progress, Refusal, RelativePose, Se2, Stage, Steps,
+};
 
 use crate::MatchError;
 use crate::bounds::Bounds;
@@ -21,6 +23,8 @@ use crate::work::Work;
 
 /// Most hypotheses of a report.
 const MOST_HYPOTHESES: usize = 5;
+/// Share of the work after which all poses are found, but not polished.
+const SEARCHED: f64 = 0.9;
 
 /// Finds the rigid transform that lays `source` on `target`, from the maps alone.
 ///
@@ -29,28 +33,43 @@ const MOST_HYPOTHESES: usize = 5;
 /// says what is missing: structure, overlap, agreement, or a lead over other poses.
 ///
 /// # Errors
-/// Parameters out of range or a prior that is not finite.
+/// Parameters out of range, a prior that is not finite, or [`MatchError::Cancelled`].
 pub fn match_maps(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
     params: &MatchParams,
+    progress: &dyn Progress,
 ) -> Result<MatchReport, MatchError> {
     params.check()?;
-    let target = PreparedMap::new(target, &params.thresholds);
-    let source = PreparedMap::new(source, &params.thresholds);
-    match_prepared(&target, &source, params)
+    let [to_target, to_source, to_end] =
+        [(0.0, 0.2), (0.2, 0.4), (0.4, 1.0)].map(|(from, to)| Stage::new(progress, from, to));
+    let target = PreparedMap::new(target, &params.thresholds, &to_target)?;
+    let source = PreparedMap::new(source, &params.thresholds, &to_source)?;
+    match_prepared(&target, &source, params, &to_end)
 }
 
 /// [`match_maps`] for maps that were prepared before; the thresholds of `params` are not used.
 ///
 /// # Errors
-/// Parameters out of range or a prior that is not finite.
+/// Parameters out of range, a prior that is not finite, or [`MatchError::Cancelled`].
 pub fn match_prepared(
     target: &PreparedMap,
     source: &PreparedMap,
     params: &MatchParams,
+    progress: &dyn Progress,
 ) -> Result<MatchReport, MatchError> {
     params.check()?;
+    let report = search(target, source, params, progress)?;
+    progress.report(1.0);
+    Ok(report)
+}
+
+fn search(
+    target: &PreparedMap,
+    source: &PreparedMap,
+    params: &MatchParams,
+    progress: &dyn Progress,
+) -> Result<MatchReport, Cancelled> {
     if let Some(refusal) = too_little(target, params).or_else(|| too_little(source, params)) {
         let outcome = Outcome::Refused(refusal);
         return Ok(MatchReport { hypotheses: Vec::new(), outcome, work: 0, exhausted: false });
@@ -61,19 +80,25 @@ pub fn match_prepared(
     let bounds = params.prior.map(|prior| Bounds::new(&prior, first, second, swapped));
     let mut search = Search::new(first, second, bounds, Work::new(params.work_limit));
     let mut found = Vec::new();
-    for effort in [Effort::Fast, Effort::Standard, Effort::Thorough] {
-        if effort > params.effort || search.work.exhausted() {
+    let efforts = [Effort::Fast, Effort::Standard, Effort::Thorough];
+    let tiers: Vec<_> = efforts.into_iter().filter(|&effort| effort <= params.effort).collect();
+    let searched = Stage::new(progress, 0.0, SEARCHED);
+    for (index, &effort) in tiers.iter().enumerate() {
+        if search.work.exhausted() {
             break;
         }
-        search.run(effort);
+        search.run(effort, &Stage::nth(&searched, index, tiers.len()))?;
         found = modes(search.fits.clone(), second.centre);
         if !found.is_empty() && probability(&found, 0) >= params.accept {
             break;
         }
     }
     found.truncate(MOST_HYPOTHESES + 1);
+    let polished = Stage::new(progress, SEARCHED, 1.0);
+    let polished = Steps::new(&polished, found.len());
     for fit in &mut found {
         fit.first_from_second = polish(first, second, fit.first_from_second);
+        polished.step()?;
     }
     let hypotheses: Vec<Hypothesis> = (0..found.len().min(MOST_HYPOTHESES))
         .filter(|&index| found[index].evidence.is_comparable())
@@ -131,12 +156,14 @@ fn hypothesis(
     let (covariance, weak_direction) =
         covariance(target, source, &target_local_from_source_local, scale);
     Hypothesis {
-        target_from_source: target.map_from_local
-            * target_local_from_source_local
-            * source.map_from_local.inverse(),
-        probability: probability(modes, index),
+        pose: RelativePose {
+            target_from_source: target.map_from_local
+                * target_local_from_source_local
+                * source.map_from_local.inverse(),
+            covariance,
+            probability: probability(modes, index),
+        },
         score,
-        covariance,
         weak_direction,
         overlap: evidence.overlap,
         agreement: evidence.agreement(),
@@ -149,13 +176,13 @@ fn outcome(hypotheses: &[Hypothesis], resolution: f64, params: &MatchParams) -> 
     let Some(best) = hypotheses.first() else {
         return Outcome::Refused(Refusal::NoOverlap { have: 0, need: cells(params.min_wall_m) });
     };
-    if best.probability >= params.accept {
-        return Outcome::Found(best.target_from_source);
+    if best.pose.probability >= params.accept {
+        return Outcome::Found(best.pose.target_from_source);
     }
     let poses = hypotheses.iter().filter(|other| other.score > FLOOR).count();
     let evidence = &best.evidence;
     let against = evidence.near_miss_m + evidence.conflict_m;
-    let (probability, need) = (best.probability, params.accept);
+    let (probability, need) = (best.pose.probability, params.accept);
     Outcome::Refused(if poses > 1 {
         Refusal::SeveralPoses { poses, probability, need }
     } else if against > evidence.hit_m * 0.35 {

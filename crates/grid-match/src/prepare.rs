@@ -1,7 +1,9 @@
 //! What is computed of one map alone, whatever it is matched with.
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::{CellClass, ClassThresholds, Grid, OccupancyGrid, Se2, l2_distance_sq};
+use ogm_core::{
+    Cancelled, CellClass, ClassThresholds, Grid, OccupancyGrid, Progress, Se2, l2_distance_sq,
+};
 
 use crate::lattice::{Lattice, floor_index};
 use crate::smooth::smooth_rows_and_columns;
@@ -68,21 +70,32 @@ pub(crate) struct AreaSample {
 
 impl PreparedMap {
     /// Prepares `map`. Maps of more than 2²⁴ known cells are halved until they are smaller.
-    #[must_use]
-    pub fn new(map: &OccupancyGrid, thresholds: &ClassThresholds) -> Self {
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn new(
+        map: &OccupancyGrid,
+        thresholds: &ClassThresholds,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        progress.go_on(0.0)?;
         let crop = Crop::of(map, thresholds);
+        progress.go_on(0.25)?;
         let Crop { mut state, lattice, map_from_local } = crop;
         drop_lone_occupied(&mut state, &lattice);
         let occupied_cells = count(&state, State::Occupied);
         let distance = wall_distance(&state, &lattice);
+        progress.go_on(0.6)?;
         let openness = openness(&state, &lattice);
+        progress.go_on(0.85)?;
         let spacing = SPACING_M.max(1.01 * lattice.resolution);
         let walls = wall_points(&state, &openness, &lattice, spacing);
         let (samples, sample_area) = area_samples(&state, &lattice);
         let centre = centroid(&samples);
         let bin = SPACING_M.max(1.5 * lattice.resolution);
         let spectrum = hough_spectrum(&walls, bin);
-        Self {
+        progress.report(1.0);
+        Ok(Self {
             map_from_local,
             lattice,
             state,
@@ -95,7 +108,7 @@ impl PreparedMap {
             centre,
             occupied_cells,
             spectrum,
-        }
+        })
     }
 
     /// Metres a cell, after any halving.

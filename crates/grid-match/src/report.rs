@@ -1,7 +1,7 @@
 //! What a match found.
 
-use nalgebra::{Matrix3, Vector2};
-use ogm_core::{Outcome, Se2};
+use nalgebra::Vector2;
+use ogm_core::{Outcome, RelativePose, Se2};
 
 use crate::Evidence;
 
@@ -23,15 +23,11 @@ pub struct MatchReport {
 #[derive(Debug, Clone)]
 #[non_exhaustive]
 pub struct Hypothesis {
-    /// Maps source points into the target map.
-    pub target_from_source: Se2,
-    /// Probability that it is right, against every other pose that was found and against none
-    /// being right.
-    pub probability: f64,
+    /// The pose with its covariance, and the probability that it is right, against every other
+    /// pose that was found and against none being right.
+    pub pose: RelativePose,
     /// [`Evidence::score`].
     pub score: f64,
-    /// Covariance of (x, y, θ) of the pose in target axes, m², m·rad, rad².
-    pub covariance: Matrix3<f64>,
     /// Where the walls hold the pose badly, if they do.
     pub weak_direction: Option<WeakDirection>,
     /// Known in both maps over known in the smaller one.

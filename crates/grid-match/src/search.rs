@@ -1,6 +1,6 @@
 //! The tiers of a search, from candidates to scored poses.
 
-use ogm_core::Se2;
+use ogm_core::{Cancelled, Progress, Se2, Stage, Steps};
 
 use crate::bounds::Bounds;
 use crate::evidence::Evidence;
@@ -71,20 +71,23 @@ impl<'a> Search<'a> {
     }
 
     /// Runs one tier and adds what it finds to the fits.
-    pub(crate) fn run(&mut self, effort: Effort) {
+    pub(crate) fn run(&mut self, effort: Effort, progress: &dyn Progress) -> Result<(), Cancelled> {
         let tier = self.tier(effort);
+        let [found, followed] = [0.6, 0.75];
         let mut candidates = self.coarse.candidates(
             &tier.rotations,
             tier.candidates,
             self.bounds.as_ref(),
             &mut self.work,
-        );
+            &Stage::new(progress, 0.0, found),
+        )?;
         if let Some(bounds) = self.bounds.filter(|_| effort == Effort::Fast) {
             let first_from_second = bounds.first_from_second;
             candidates.push(Candidate { first_from_second, score: 0.0 });
         }
-        let promising = self.settle(candidates, tier.survivors);
-        self.judge(&promising);
+        let followed_walls = Stage::new(progress, found, followed);
+        let promising = self.settle(candidates, tier.survivors, &followed_walls)?;
+        self.judge(&promising, &Stage::new(progress, followed, 1.0))
     }
 
     fn tier(&self, effort: Effort) -> Tier {
@@ -110,7 +113,13 @@ impl<'a> Search<'a> {
     }
 
     /// Lets candidates follow the walls and keeps the `most` that then fit best.
-    fn settle(&mut self, candidates: Vec<Candidate>, most: usize) -> Vec<Candidate> {
+    fn settle(
+        &mut self,
+        candidates: Vec<Candidate>,
+        most: usize,
+        progress: &dyn Progress,
+    ) -> Result<Vec<Candidate>, Cancelled> {
+        let done = Steps::new(progress, candidates.len());
         let ratio = self.coarse.cell / 0.2;
         let scales = COARSE_SCALES.map(|scale| scale * ratio);
         let reach = self.reach();
@@ -126,18 +135,21 @@ impl<'a> Search<'a> {
             let evidence = weigh_as_one(first, second, &first_from_second, reach, COARSE_POINTS);
             let score = rough_log_odds(&evidence);
             settled.push(Candidate { first_from_second, score });
+            done.step()?;
         }
         settled.sort_by(|a, b| b.score.total_cmp(&a.score));
-        distinct(settled, self.second.centre, SAME.0, SAME.1, most)
+        Ok(distinct(settled, self.second.centre, SAME.0, SAME.1, most))
     }
 
     /// Refines and scores the promising poses in full.
-    fn judge(&mut self, promising: &[Candidate]) {
+    fn judge(&mut self, promising: &[Candidate], progress: &dyn Progress) -> Result<(), Cancelled> {
+        let done = Steps::new(progress, promising.len());
         let scales = FINE_SCALES.map(|scale| scale.max(self.resolution()));
         let points =
             self.first.walls.len().min(FINE_POINTS) + self.second.walls.len().min(FINE_POINTS);
         let used = Points { most: FINE_POINTS, sides: Sides::NotOpposite };
         for candidate in promising {
+            done.step()?;
             if !self.work.spend_points(points * (scales.len() + 1)) {
                 break;
             }
@@ -150,6 +162,7 @@ impl<'a> Search<'a> {
             let evidence = weigh(first, second, &first_from_second, self.reach(), FINE_POINTS);
             self.fits.push(Fit { first_from_second, evidence, score: evidence.score() });
         }
+        Ok(())
     }
 
     fn reach(&self) -> Reach {

@@ -1,7 +1,7 @@
 //! Candidate poses: every translation at each of some rotations.
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::{Se2, wrap_angle};
+use ogm_core::{Cancelled, Progress, Se2, Steps, wrap_angle};
 
 use crate::bounds::Bounds;
 use crate::channels::{Channels, FreeShare, Side, turned_box};
@@ -50,7 +50,8 @@ impl<'a> CoarsePair<'a> {
         most: usize,
         bounds: Option<&Bounds>,
         work: &mut Work,
-    ) -> Vec<Candidate> {
+        progress: &dyn Progress,
+    ) -> Result<Vec<Candidate>, Cancelled> {
         let mut size = [0; 2];
         for &theta in rotations {
             let [low, high] = turned_box(self.second, theta);
@@ -59,6 +60,7 @@ impl<'a> CoarsePair<'a> {
         }
         let overlap = floor_index(LEAST_OVERLAP_M / self.cell);
         let mut correlator = Correlator::new(&self.first_channels, size, overlap);
+        let done = Steps::new(progress, rotations.len());
         let mut found = Vec::new();
         for &theta in rotations {
             if !work.spend_transform(correlator.cells()) {
@@ -67,9 +69,10 @@ impl<'a> CoarsePair<'a> {
             let turned = Channels::turned(self.second, &self.second_free, theta, Side::Second);
             let surface = correlator.correlate(&turned);
             found.extend(self.peaks(&surface, &turned, theta, bounds));
+            done.step()?;
         }
         found.sort_by(|a, b| b.score.total_cmp(&a.score));
-        distinct(found, self.second.centre, 1.5 * self.cell, APART_RAD, most)
+        Ok(distinct(found, self.second.centre, 1.5 * self.cell, APART_RAD, most))
     }
 
     fn peaks(

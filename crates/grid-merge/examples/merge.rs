@@ -3,7 +3,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use grid_merge::{MergeParams, PlacedMap, merge};
+use grid_merge::{FusionParams, PlacedMap, merge};
 use ogm_core::{GridFrame, OccupancyGrid, Se2};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -27,7 +27,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         PlacedMap { map: &first, reference_from_map: Se2::identity() },
         PlacedMap { map: &second, reference_from_map: Se2::new(0.40, -0.15, FRAC_PI_2) },
     ];
-    let merged = merge(&placed, &MergeParams::default())?;
+    let merged = merge(&placed, &FusionParams::default(), &())?;
     print!("{}", merged.map.to_ascii());
     println!(
         "{} of {} cells known to both are in conflict",

@@ -1,8 +1,9 @@
 //! A map seen through a transform, log-odds interpolated between cell centres.
 
 use nalgebra::Point2;
-use ogm_core::{Grid, GridError, GridFrame, Occupancy, Se2, warp_nearest};
+use ogm_core::{Grid, GridFrame, NearestWarp, Occupancy, Progress, Se2, Steps};
 
+use crate::FusionError;
 use crate::evidence::{ByteOfLogOdds, LogOddsOfByte};
 use crate::mapping::CellMap;
 
@@ -14,18 +15,16 @@ pub(crate) fn warp_bilinear(
     target_frame: &GridFrame,
     target_size: (usize, usize),
     target_from_source: &Se2,
-) -> Result<Grid<Occupancy>, GridError> {
-    let mut target = warp_nearest(
-        source,
-        source_frame,
-        target_frame,
-        target_size,
-        target_from_source,
-        Occupancy::UNKNOWN,
-    )?;
+    progress: &dyn Progress,
+) -> Result<Grid<Occupancy>, FusionError> {
+    let nearest = NearestWarp::new(source_frame, target_frame, target_from_source)?;
+    let (width, height) = target_size;
+    let mut target = Grid::filled(width, height, Occupancy::UNKNOWN)?;
+    let done = Steps::new(progress, height);
     let source_cells = CellMap::new(target_frame, source_frame, &target_from_source.inverse());
     let blend = Blend { source, log_odds: LogOddsOfByte::new(), rounding: ByteOfLogOdds::new() };
-    for (row, cells) in target.cells_mut().chunks_exact_mut(target_size.0).enumerate() {
+    for (row, cells) in target.cells_mut().chunks_exact_mut(width).enumerate() {
+        nearest.fill_row(source, row, cells);
         let start = source_cells.at(0.5, row as f64 + 0.5);
         for (column, cell) in cells.iter_mut().enumerate() {
             if cell.is_known() {
@@ -33,6 +32,7 @@ pub(crate) fn warp_bilinear(
                 *cell = blend.at(at).unwrap_or(*cell);
             }
         }
+        done.step()?;
     }
     Ok(target)
 }
@@ -94,7 +94,7 @@ mod tests {
         let source = row(&[0.9, 0.1, 0.1]);
         let target_from_source = Se2::new(-0.5, 0.0, 0.0);
         let warped =
-            warp_bilinear(&source, &unit_frame(), &unit_frame(), (3, 3), &target_from_source);
+            warp_bilinear(&source, &unit_frame(), &unit_frame(), (3, 3), &target_from_source, &());
         let warped = warped.unwrap();
         assert_eq!(middle(&warped, 0), Occupancy::from_probability(0.5));
         assert_eq!(middle(&warped, 1), Occupancy::FREE);
@@ -105,7 +105,7 @@ mod tests {
         let source = row(&[0.9, 0.1, f64::NAN]);
         let target_from_source = Se2::new(-0.4, 0.0, 0.0);
         let warped =
-            warp_bilinear(&source, &unit_frame(), &unit_frame(), (3, 3), &target_from_source);
+            warp_bilinear(&source, &unit_frame(), &unit_frame(), (3, 3), &target_from_source, &());
         let warped = warped.unwrap();
         assert_eq!(middle(&warped, 1), Occupancy::FREE);
         assert_eq!(middle(&warped, 2), Occupancy::UNKNOWN);

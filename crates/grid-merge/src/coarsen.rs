@@ -1,8 +1,8 @@
 //! A map at a coarser resolution that still has its thin walls.
 
-use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid};
+use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Progress, Steps};
 
-use crate::MergeError;
+use crate::FusionError;
 use crate::evidence::{ByteOfLogOdds, LogOddsOfByte};
 
 /// `map` at `resolution` metres a cell, same origin pose: what two maps of different resolution
@@ -19,7 +19,17 @@ pub fn coarsen(
     map: &OccupancyGrid,
     resolution: f64,
     thresholds: &ClassThresholds,
-) -> Result<OccupancyGrid, MergeError> {
+) -> Result<OccupancyGrid, FusionError> {
+    coarsen_in_rows(map, resolution, thresholds, &())
+}
+
+/// [`coarsen`] that can be cancelled between rows.
+pub(crate) fn coarsen_in_rows(
+    map: &OccupancyGrid,
+    resolution: f64,
+    thresholds: &ClassThresholds,
+    progress: &dyn Progress,
+) -> Result<OccupancyGrid, FusionError> {
     let frame = GridFrame::new(resolution, map.frame().map_from_grid())?;
     if frame.same_resolution(map.frame()) {
         return Ok(map.clone());
@@ -28,7 +38,7 @@ pub fn coarsen(
     let ratio = resolution / have;
     if ratio < 1.0 {
         let asked = resolution;
-        return Err(MergeError::FinerThanSource { have, asked });
+        return Err(FusionError::FinerThanSource { have, asked });
     }
     let width = coarse_cell(map.width() - 1, ratio) + 1;
     let height = coarse_cell(map.height() - 1, ratio) + 1;
@@ -38,6 +48,7 @@ pub fn coarsen(
     let rounding = ByteOfLogOdds::new();
     let columns: Vec<usize> = (0..map.width()).map(|column| coarse_cell(column, ratio)).collect();
     let mut tallies = vec![Tally::default(); width];
+    let done = Steps::new(progress, height);
     let mut fine_rows = map.cells().rows().enumerate().peekable();
     for (row, output) in coarse.cells_mut().chunks_exact_mut(width).enumerate() {
         tallies.fill(Tally::default());
@@ -49,6 +60,7 @@ pub fn coarsen(
                 }
             }
         }
+        done.step()?;
         for (cell, tally) in output.iter_mut().zip(&tallies) {
             if let Some(mean) = tally.mean() {
                 *cell = rounding.round(mean);
@@ -96,7 +108,7 @@ impl Tally {
 #[cfg(test)]
 mod tests {
     use super::coarsen;
-    use crate::MergeError;
+    use crate::FusionError;
     use ogm_core::{CellClass, ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
     use proptest::prelude::{Just, prop, prop_assert, prop_assert_eq, prop_oneof, proptest};
 
@@ -132,10 +144,10 @@ mod tests {
         let (source, thresholds) = (map(0.05, "#.?"), ClassThresholds::default());
         assert_eq!(coarsen(&source, f64::from(0.05_f32), &thresholds).unwrap(), source);
         let finer = coarsen(&source, 0.04, &thresholds);
-        assert_eq!(finer, Err(MergeError::FinerThanSource { have: 0.05, asked: 0.04 }));
+        assert_eq!(finer, Err(FusionError::FinerThanSource { have: 0.05, asked: 0.04 }));
         for resolution in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             let bad = coarsen(&source, resolution, &thresholds);
-            assert!(matches!(bad, Err(MergeError::Grid(_))), "{resolution}");
+            assert!(matches!(bad, Err(FusionError::Grid(_))), "{resolution}");
         }
         assert_eq!(coarsen(&source, 1e300, &thresholds).unwrap().to_ascii(), "#\n");
     }

@@ -6,9 +6,9 @@ use ogm_core::{Grid, GridFrame, OccupancyGrid, Se2};
 
 use crate::gaps::blur_coverage;
 use crate::lattice::Footprint;
-use crate::mapping::{Layer, Source};
+use crate::mapping::{Layer, Source, Vacant};
 use crate::merge::{check_pose, check_scatter};
-use crate::{GapTreatment, Mapping, MergeError, MergeParams};
+use crate::{FusionError, FusionParams, GapTreatment, Mapping};
 
 /// A coverage field and where it lies.
 #[derive(Debug, Clone, Copy)]
@@ -34,8 +34,8 @@ pub struct PlacedCoverage<'a> {
 pub fn merge_coverage(
     fields: &[PlacedCoverage<'_>],
     onto: &OccupancyGrid,
-    params: &MergeParams,
-) -> Result<Grid<bool>, MergeError> {
+    params: &FusionParams,
+) -> Result<Grid<bool>, FusionError> {
     let lattice = onto.frame();
     let output = Footprint::of_grid((onto.width(), onto.height()));
     let mut union = onto.cells().map(|_| false);
@@ -51,8 +51,9 @@ pub fn merge_coverage(
         let Some(footprint) = reach.clipped(&output) else {
             continue;
         };
+        let vacant = Vacant { value: false, fill: |_: &[bool]| true };
         let (column, row) = footprint.offset_in(&output);
-        let cells = source.onto(lattice, &footprint, &params.mapping, false, |_| true)?;
+        let cells = source.onto(lattice, &footprint, &params.mapping, vacant, &())?;
         add(&mut union, &Layer { column, row, cells });
     }
     Ok(match params.mapping {

@@ -1,11 +1,11 @@
 //! What cannot be merged.
 
-use ogm_core::GridError;
+use ogm_core::{Cancelled, GridError};
 
 /// A merge that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum MergeError {
+pub enum FusionError {
     /// No map to take the output's lattice from.
     #[error("nothing to merge: at least one map is needed")]
     NoMaps,
@@ -44,4 +44,7 @@ pub enum MergeError {
     /// An output that is no grid, by its size or its resolution.
     #[error(transparent)]
     Grid(#[from] GridError),
+    /// The merge was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }

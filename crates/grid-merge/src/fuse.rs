@@ -1,6 +1,6 @@
 //! What several maps say of a cell, made one.
 
-use ogm_core::{ClassThresholds, Grid, GridError, Occupancy};
+use ogm_core::{Cancelled, ClassThresholds, Grid, GridError, Occupancy, Progress, Steps};
 
 use crate::FusionRule;
 use crate::mapping::Layer;
@@ -34,15 +34,18 @@ impl Fused {
         layers: &[Layer<'_, Occupancy>],
         rule: FusionRule,
         thresholds: &ClassThresholds,
-    ) {
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         let width = self.cells.width();
         let tables = Tables::new(thresholds);
         let mut pairs = None;
         let mut overlaps = vec![Overlap::default(); width];
         let mut covering = Vec::with_capacity(layers.len());
+        let done = Steps::new(progress, self.cells.height());
         let rows = self.cells.cells_mut().chunks_exact_mut(width);
         let rows = rows.zip(self.conflicts.cells_mut().chunks_exact_mut(width));
         for (row, (cells, conflicts)) in rows.enumerate() {
+            done.step()?;
             covering.clear();
             covering.extend(layers.iter().filter_map(|layer| {
                 let said = layer.output_row(row)?;
@@ -70,6 +73,7 @@ impl Fused {
             self.compared += counts.compared;
             self.conflict_count += counts.conflicts;
         }
+        Ok(())
     }
 }
 
@@ -95,7 +99,7 @@ mod tests {
             })
             .collect();
         let mut fused = Fused::blank((layers[0].cells.width(), 1)).unwrap();
-        fused.fuse(&layers, rule, &ClassThresholds::default());
+        fused.fuse(&layers, rule, &ClassThresholds::default(), &()).unwrap();
         fused
     }
 

@@ -6,7 +6,7 @@
 //! the cell is a conflict, counted and shown.
 //!
 //! ```
-//! use grid_merge::{MergeParams, PlacedMap, merge};
+//! use grid_merge::{FusionParams, PlacedMap, merge};
 //! use ogm_core::{GridFrame, OccupancyGrid, Se2};
 //!
 //! let frame = GridFrame::new(0.05, Se2::new(-1.0, 2.0, 0.0))?;
@@ -16,7 +16,7 @@
 //!     PlacedMap { map: &left, reference_from_map: Se2::identity() },
 //!     PlacedMap { map: &right, reference_from_map: Se2::new(0.10, 0.0, 0.0) },
 //! ];
-//! let merged = merge(&placed, &MergeParams::default())?;
+//! let merged = merge(&placed, &FusionParams::default(), &())?;
 //! assert_eq!(merged.map.to_ascii(), "######\n#....#\n######\n");
 //! assert_eq!((merged.compared, merged.conflict_count), (3, 0));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -42,10 +42,10 @@ mod verdict;
 
 pub use coarsen::coarsen;
 pub use coverage::{PlacedCoverage, merge_coverage};
-pub use error::MergeError;
+pub use error::FusionError;
 pub use evidence::fuse_log_odds;
 pub use merge::{Merged, PlacedMap, merge, transform_grid};
-pub use params::{ForwardRounding, FusionRule, GapTreatment, Interpolation, Mapping, MergeParams};
+pub use params::{ForwardRounding, FusionParams, FusionRule, GapTreatment, Interpolation, Mapping};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

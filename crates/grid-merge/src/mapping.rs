@@ -3,12 +3,12 @@
 use std::borrow::Cow;
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::{Grid, GridError, GridFrame, Se2, warp_nearest};
+use ogm_core::{Grid, GridError, GridFrame, NearestWarp, Progress, Se2, Steps};
 
-use crate::ForwardRounding;
+use crate::error::FusionError;
 use crate::gaps::fill_holes;
 use crate::lattice::Footprint;
-use crate::params::{GapTreatment, Mapping};
+use crate::params::{ForwardRounding, GapTreatment, Mapping};
 
 /// Keeps rounding errors of whole-cell moves from deciding between two cells.
 const NUDGE: f64 = 1e-9;
@@ -35,6 +35,12 @@ pub(crate) struct Source<'a, T: Clone> {
     pub(crate) reference_from_map: Se2,
 }
 
+/// What a cell holds where nothing lands, and what a hole among cells takes from those around it.
+pub(crate) struct Vacant<T, F: Fn(&[T]) -> T> {
+    pub(crate) value: T,
+    pub(crate) fill: F,
+}
+
 impl<'a, T: Copy + PartialEq> Source<'a, T> {
     pub(crate) fn size(&self) -> (usize, usize) {
         (self.cells.width(), self.cells.height())
@@ -51,16 +57,15 @@ impl<'a, T: Copy + PartialEq> Source<'a, T> {
         Footprint::new(lattice, &self.frame, self.size(), pose, corners_land)
     }
 
-    /// The cells on the lattice cells of `footprint`, `absent` where there are none. `fill` gives a
-    /// hole its value from the neighbours that are present; any interpolation is nearest cell.
+    /// The cells on the lattice cells of `footprint`; any interpolation is nearest cell.
     pub(crate) fn onto(
         self,
         lattice: &GridFrame,
         footprint: &Footprint,
         mapping: &Mapping,
-        absent: T,
-        fill: impl Fn(&[T]) -> T,
-    ) -> Result<Cow<'a, Grid<T>>, GridError> {
+        vacant: Vacant<T, impl Fn(&[T]) -> T>,
+        progress: &dyn Progress,
+    ) -> Result<Cow<'a, Grid<T>>, FusionError> {
         if footprint.whole_cells {
             return Ok(self.cells);
         }
@@ -68,13 +73,20 @@ impl<'a, T: Copy + PartialEq> Source<'a, T> {
         let size = footprint.size();
         let mapped = match mapping {
             Mapping::Inverse(_) => {
-                let pose = &self.reference_from_map;
-                warp_nearest(&self.cells, &self.frame, &target_frame, size, pose, absent)?
+                let warp = NearestWarp::new(&self.frame, &target_frame, &self.reference_from_map)?;
+                let mut mapped = Grid::filled(size.0, size.1, vacant.value)?;
+                let done = Steps::new(progress, size.1);
+                for (row, output) in mapped.cells_mut().chunks_exact_mut(size.0).enumerate() {
+                    warp.fill_row(&self.cells, row, output);
+                    done.step()?;
+                }
+                mapped
             }
             Mapping::Forward { rounding, gaps } => {
-                let mapped = self.scattered(&target_frame, size, *rounding, absent)?;
+                let mapped =
+                    self.scattered(&target_frame, size, *rounding, vacant.value, progress)?;
                 match gaps {
-                    GapTreatment::HoleFill => fill_holes(&mapped, absent, fill),
+                    GapTreatment::HoleFill => fill_holes(&mapped, vacant.value, vacant.fill),
                     _ => mapped,
                 }
             }
@@ -89,7 +101,8 @@ impl<'a, T: Copy + PartialEq> Source<'a, T> {
         size: (usize, usize),
         rounding: ForwardRounding,
         absent: T,
-    ) -> Result<Grid<T>, GridError> {
+        progress: &dyn Progress,
+    ) -> Result<Grid<T>, FusionError> {
         let (width, height) = size;
         let mut target = Grid::filled(width, height, absent)?;
         let target_cells = CellMap::new(&self.frame, target_frame, &self.reference_from_map);
@@ -97,7 +110,9 @@ impl<'a, T: Copy + PartialEq> Source<'a, T> {
             ForwardRounding::Centre => 0.5,
             ForwardRounding::FloorOfInteger => 0.0,
         };
+        let done = Steps::new(progress, self.cells.height());
         for (row, cells) in self.cells.rows().enumerate() {
+            done.step()?;
             let start = target_cells.at(corner, row as f64 + corner);
             for (column, &cell) in cells.iter().enumerate() {
                 if cell == absent {

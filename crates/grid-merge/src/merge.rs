@@ -2,14 +2,19 @@
 
 use std::borrow::Cow;
 
-use ogm_core::{Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
+use ogm_core::{Grid, GridFrame, Occupancy, OccupancyGrid, Progress, Se2, Stage};
 
 use crate::bilinear::warp_bilinear;
+use crate::coarsen::coarsen_in_rows;
 use crate::fuse::Fused;
 use crate::gaps::{blur_everywhere, blur_free, mean_of_majority};
 use crate::lattice::{Footprint, output_lattice};
-use crate::mapping::{Layer, Source};
-use crate::{GapTreatment, Interpolation, Mapping, MergeError, MergeParams, coarsen};
+use crate::mapping::{Layer, Source, Vacant};
+use crate::{FusionError, FusionParams, GapTreatment, Interpolation, Mapping};
+
+/// Shares of the work after which all maps are coarsened, and on the output's lattice.
+const COARSENED: f64 = 0.2;
+const RESAMPLED: f64 = 0.7;
 
 /// A map and where it lies.
 #[derive(Debug, Clone, Copy)]
@@ -38,18 +43,26 @@ pub struct Merged {
 /// The output is the bounding box of all maps, with yaw 0. Where the first map has yaw 0 in the
 /// reference frame and no other resolution is asked for, its lattice is kept and its cells are
 /// copied; so are those of every map that lies on that lattice. All others are resampled by
-/// [`MergeParams::mapping`], those of finer resolution after [`coarsen`]. By Tsardoulias et al.,
+/// [`FusionParams::mapping`], those of finer resolution after [`coarsen`]. By Tsardoulias et al.,
 /// section 4.4; there the second map is transformed and the first stays.
 ///
 /// # Errors
 /// No map, a pose that is not finite, an output over the size limit or of no usable resolution,
-/// and forward mapping of a map that is coarser than the output.
-pub fn merge(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<Merged, MergeError> {
+/// forward mapping of a map that is coarser than the output, and [`FusionError::Cancelled`].
+pub fn merge(
+    maps: &[PlacedMap<'_>],
+    params: &FusionParams,
+    progress: &dyn Progress,
+) -> Result<Merged, FusionError> {
     let lattice = lattice_of(maps, params)?;
+    let coarsened = Stage::new(progress, 0.0, COARSENED);
     let prepared: Vec<_> = maps
         .iter()
         .enumerate()
-        .map(|(index, placed)| not_finer(index, placed.map, &lattice, params))
+        .map(|(index, placed)| {
+            let stage = Stage::nth(&coarsened, index, maps.len());
+            not_finer(index, placed.map, &lattice, params, &stage)
+        })
         .collect::<Result<_, _>>()?;
     let sources: Vec<_> = maps
         .iter()
@@ -64,17 +77,21 @@ pub fn merge(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<Merged, Mer
         .iter()
         .copied()
         .reduce(|bounds, footprint| bounds.union(&footprint))
-        .ok_or(MergeError::NoMaps)?;
+        .ok_or(FusionError::NoMaps)?;
 
     // Refuses an output over the size limit before anything of its size exists.
     let mut fused = Fused::blank(bounds.size())?;
     let mut layers = Vec::with_capacity(sources.len());
-    for (source, footprint) in sources.into_iter().zip(&footprints) {
+    let resampled = Stage::new(progress, COARSENED, RESAMPLED);
+    for (index, (source, footprint)) in sources.into_iter().zip(&footprints).enumerate() {
         let (column, row) = footprint.offset_in(&bounds);
-        let cells = resample(source, &lattice, footprint, params)?;
+        let stage = Stage::nth(&resampled, index, maps.len());
+        let cells = resample(source, &lattice, footprint, params, &stage)?;
         layers.push(Layer { column, row, cells });
     }
-    fused.fuse(&layers, params.fusion, &params.thresholds);
+    let rest = Stage::new(progress, RESAMPLED, 1.0);
+    fused.fuse(&layers, params.fusion, &params.thresholds, &rest)?;
+    progress.report(1.0);
     Ok(Merged {
         map: OccupancyGrid::new(bounds.frame(&lattice), blurred(fused.cells, params)),
         conflicts: fused.conflicts,
@@ -93,20 +110,23 @@ pub fn merge(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<Merged, Mer
 pub fn transform_grid(
     source: &OccupancyGrid,
     target_from_source: &Se2,
-    params: &MergeParams,
-) -> Result<OccupancyGrid, MergeError> {
+    params: &FusionParams,
+    progress: &dyn Progress,
+) -> Result<OccupancyGrid, FusionError> {
     let placed = PlacedMap { map: source, reference_from_map: *target_from_source };
     let lattice = lattice_of(&[placed], params)?;
-    let map = not_finer(0, source, &lattice, params)?;
+    let map = not_finer(0, source, &lattice, params, &Stage::new(progress, 0.0, COARSENED))?;
     let moved = source_of(&map, *target_from_source);
     let footprint = moved.footprint(&lattice, &params.mapping)?;
-    let cells = resample(moved, &lattice, &footprint, params)?.into_owned();
+    let resampled = Stage::new(progress, COARSENED, 1.0);
+    let cells = resample(moved, &lattice, &footprint, params, &resampled)?.into_owned();
+    progress.report(1.0);
     Ok(OccupancyGrid::new(footprint.frame(&lattice), blurred(cells, params)))
 }
 
 /// The output's lattice, once it is clear that all poses can be meant.
-fn lattice_of(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<GridFrame, MergeError> {
-    let first = maps.first().ok_or(MergeError::NoMaps)?;
+fn lattice_of(maps: &[PlacedMap<'_>], params: &FusionParams) -> Result<GridFrame, FusionError> {
+    let first = maps.first().ok_or(FusionError::NoMaps)?;
     for (index, placed) in maps.iter().enumerate() {
         check_pose(index, &placed.reference_from_map)?;
     }
@@ -115,11 +135,11 @@ fn lattice_of(maps: &[PlacedMap<'_>], params: &MergeParams) -> Result<GridFrame,
     Ok(output_lattice(first.map.frame(), size, pose, params.resolution)?)
 }
 
-pub(crate) fn check_pose(map: usize, reference_from_map: &Se2) -> Result<(), MergeError> {
+pub(crate) fn check_pose(map: usize, reference_from_map: &Se2) -> Result<(), FusionError> {
     if reference_from_map.is_finite() {
         Ok(())
     } else {
-        Err(MergeError::NonFinitePose {
+        Err(FusionError::NonFinitePose {
             map,
             x: reference_from_map.x(),
             y: reference_from_map.y(),
@@ -134,11 +154,11 @@ pub(crate) fn check_scatter(
     frame: &GridFrame,
     lattice: &GridFrame,
     mapping: &Mapping,
-) -> Result<(), MergeError> {
+) -> Result<(), FusionError> {
     let (have, output) = (frame.resolution(), lattice.resolution());
     let scatters = matches!(mapping, Mapping::Forward { .. });
     if scatters && have > output && !frame.same_resolution(lattice) {
-        return Err(MergeError::TooCoarseToScatter { map, have, output });
+        return Err(FusionError::TooCoarseToScatter { map, have, output });
     }
     Ok(())
 }
@@ -148,12 +168,14 @@ fn not_finer<'a>(
     index: usize,
     map: &'a OccupancyGrid,
     lattice: &GridFrame,
-    params: &MergeParams,
-) -> Result<Cow<'a, OccupancyGrid>, MergeError> {
+    params: &FusionParams,
+    progress: &dyn Progress,
+) -> Result<Cow<'a, OccupancyGrid>, FusionError> {
+    progress.go_on(0.0)?;
     check_scatter(index, map.frame(), lattice, &params.mapping)?;
     let finer = map.frame().resolution() < lattice.resolution();
     if finer && !map.frame().same_resolution(lattice) {
-        let coarse = coarsen(map, lattice.resolution(), &params.thresholds)?;
+        let coarse = coarsen_in_rows(map, lattice.resolution(), &params.thresholds, progress)?;
         return Ok(Cow::Owned(coarse));
     }
     Ok(Cow::Borrowed(map))
@@ -167,8 +189,10 @@ fn resample<'a>(
     source: Source<'a, Occupancy>,
     lattice: &GridFrame,
     footprint: &Footprint,
-    params: &MergeParams,
-) -> Result<Cow<'a, Grid<Occupancy>>, MergeError> {
+    params: &FusionParams,
+    progress: &dyn Progress,
+) -> Result<Cow<'a, Grid<Occupancy>>, FusionError> {
+    progress.go_on(0.0)?;
     let bilinear = params.mapping == Mapping::Inverse(Interpolation::Bilinear);
     if bilinear && !footprint.whole_cells {
         let warped = warp_bilinear(
@@ -177,14 +201,16 @@ fn resample<'a>(
             &footprint.frame(lattice),
             footprint.size(),
             &source.reference_from_map,
+            progress,
         )?;
         return Ok(Cow::Owned(warped));
     }
     let fill = |known: &[Occupancy]| mean_of_majority(known, &params.thresholds);
-    Ok(source.onto(lattice, footprint, &params.mapping, Occupancy::UNKNOWN, fill)?)
+    let vacant = Vacant { value: Occupancy::UNKNOWN, fill };
+    source.onto(lattice, footprint, &params.mapping, vacant, progress)
 }
 
-fn blurred(cells: Grid<Occupancy>, params: &MergeParams) -> Grid<Occupancy> {
+fn blurred(cells: Grid<Occupancy>, params: &FusionParams) -> Grid<Occupancy> {
     match params.mapping {
         Mapping::Forward { gaps: GapTreatment::BlurEverywhere, .. } => blur_everywhere(&cells),
         Mapping::Forward { gaps: GapTreatment::PrintedCondition, .. } => {

@@ -4,7 +4,7 @@ use ogm_core::ClassThresholds;
 
 /// What can be chosen about a merge.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct MergeParams {
+pub struct FusionParams {
     /// How cells get from a map onto the output; inverse by default, because it leaves no gaps.
     pub mapping: Mapping,
     /// What a cell becomes that several maps know; sum of log-odds by default, because the maps of
@@ -18,7 +18,7 @@ pub struct MergeParams {
     pub thresholds: ClassThresholds,
 }
 
-impl MergeParams {
+impl FusionParams {
     /// The structure of Tsardoulias et al., section 4.4, with its errors corrected: forward
     /// mapping of cell centres, and gaps filled from their free neighbours.
     #[must_use]

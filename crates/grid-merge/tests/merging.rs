@@ -3,7 +3,7 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use grid_merge::{
-    FusionRule, GapTreatment, Interpolation, Mapping, MergeError, MergeParams, PlacedCoverage,
+    FusionError, FusionParams, FusionRule, GapTreatment, Interpolation, Mapping, PlacedCoverage,
     PlacedMap, merge, merge_coverage, transform_grid,
 };
 use ogm_core::{
@@ -43,7 +43,7 @@ fn all_mappings() -> [Mapping; 3] {
     [
         Mapping::Inverse(Interpolation::Nearest),
         Mapping::Inverse(Interpolation::Bilinear),
-        MergeParams::paper().mapping,
+        FusionParams::paper().mapping,
     ]
 }
 
@@ -52,9 +52,9 @@ fn the_first_map_keeps_its_cells_and_the_frame_is_the_reference() {
     let (first, second) = (room(frame(-1.03, 2.07, 0.0)), room(frame(0.4, -0.2, 0.3)));
     for mapping in all_mappings() {
         let params =
-            MergeParams { mapping, fusion: FusionRule::PreferFirst, ..MergeParams::default() };
+            FusionParams { mapping, fusion: FusionRule::PreferFirst, ..FusionParams::default() };
         let maps = [placed(&first, Se2::identity()), placed(&second, Se2::new(1.2, -0.7, 0.4))];
-        let merged = merge(&maps, &params).unwrap().map;
+        let merged = merge(&maps, &params, &()).unwrap().map;
         assert_eq!(merged.frame().map_from_grid().theta(), 0.0);
         for (index, &cell) in first.cells().indexed() {
             let point = first.frame().cell_centre(index);
@@ -69,7 +69,7 @@ fn the_first_map_keeps_its_cells_and_the_frame_is_the_reference() {
 #[test]
 fn a_map_merged_with_itself_has_no_conflict_and_more_certainty() {
     let map = room(frame(0.0, 0.0, 0.0));
-    let merged = merge(&[placed(&map, Se2::identity()); 2], &MergeParams::default()).unwrap();
+    let merged = merge(&[placed(&map, Se2::identity()); 2], &FusionParams::default(), &()).unwrap();
     let known = map.cells().cells().iter().filter(|cell| cell.is_known()).count();
     assert_eq!((merged.compared, merged.conflict_count), (known, 0));
     let strengthened = Occupancy::from_probability(0.81 / 0.82);
@@ -84,7 +84,7 @@ fn conflicts_are_shown_where_they_are() {
     let first = OccupancyGrid::from_ascii(frame(0.0, 0.0, 0.0), "..#?").unwrap();
     let second = OccupancyGrid::from_ascii(frame(0.05, 0.0, 0.0), "#.#").unwrap();
     let maps = [placed(&first, Se2::identity()), placed(&second, Se2::identity())];
-    let merged = merge(&maps, &MergeParams::default()).unwrap();
+    let merged = merge(&maps, &FusionParams::default(), &()).unwrap();
     assert_eq!(merged.map.to_ascii(), ".++#\n");
     assert_eq!(merged.conflicts.cells(), [false, true, true, false]);
     assert_eq!((merged.compared, merged.conflict_count), (2, 2));
@@ -98,7 +98,7 @@ fn three_maps_give_the_same_bytes_in_any_order() {
     let merged = |order: [usize; 3]| {
         let mut maps = vec![placed(&anchor, Se2::identity())];
         maps.extend(order.map(|index| placed(&rooms[index].0, rooms[index].1)));
-        merge(&maps, &MergeParams::default()).unwrap()
+        merge(&maps, &FusionParams::default(), &()).unwrap()
     };
     let one = merged([0, 1, 2]);
     assert!(one.conflict_count > 100, "the rooms must disagree somewhere");
@@ -113,8 +113,8 @@ fn a_finer_map_keeps_its_thin_walls_in_a_coarser_output() {
     for cell in &mut fine.cells_mut().cells_mut()[60 * 17..60 * 18] {
         *cell = Occupancy::OCCUPIED;
     }
-    let params = MergeParams { resolution: Some(RESOLUTION), ..MergeParams::default() };
-    let coarse = transform_grid(&fine, &Se2::new(0.3, 0.1, 0.0), &params).unwrap();
+    let params = FusionParams { resolution: Some(RESOLUTION), ..FusionParams::default() };
+    let coarse = transform_grid(&fine, &Se2::new(0.3, 0.1, 0.0), &params, &()).unwrap();
     assert_eq!(coarse.frame().resolution(), RESOLUTION);
     let walls = coarse.occupied_points(&ClassThresholds::default());
     assert_eq!(walls.len(), 24, "1.2 m of wall in cells of 0.05 m");
@@ -125,10 +125,10 @@ fn a_finer_map_keeps_its_thin_walls_in_a_coarser_output() {
 fn coverage_lies_where_the_map_it_belongs_to_lies() {
     let (first, second) = (room(frame(0.0, 0.0, 0.0)), room(frame(0.0, 0.0, 0.0)));
     let pose = Se2::new(0.72, -0.31, 2.2);
-    for mapping in [Mapping::default(), MergeParams::paper().mapping] {
-        let params = MergeParams { mapping, ..MergeParams::default() };
+    for mapping in [Mapping::default(), FusionParams::paper().mapping] {
+        let params = FusionParams { mapping, ..FusionParams::default() };
         let maps = [placed(&first, Se2::identity()), placed(&second, pose)];
-        let merged = merge(&maps, &params).unwrap().map;
+        let merged = merge(&maps, &params, &()).unwrap().map;
         let known = first.cells().map(|cell| cell.is_known());
         let fields = maps.map(|placed| PlacedCoverage {
             covered: &known,
@@ -154,32 +154,36 @@ fn coverage_lies_where_the_map_it_belongs_to_lies() {
 #[test]
 fn what_cannot_be_meant_is_an_error() {
     let map = room(frame(0.0, 0.0, 0.0));
-    let params = MergeParams::default();
-    assert_eq!(merge(&[], &params), Err(MergeError::NoMaps));
+    let params = FusionParams::default();
+    assert_eq!(merge(&[], &params, &()), Err(FusionError::NoMaps));
     let nan = [placed(&map, Se2::identity()), placed(&map, Se2::new(f64::NAN, 0.0, 0.0))];
-    assert!(matches!(merge(&nan, &params), Err(MergeError::NonFinitePose { map: 1, .. })));
+    assert!(matches!(merge(&nan, &params, &()), Err(FusionError::NonFinitePose { map: 1, .. })));
     let far = [placed(&map, Se2::identity()), placed(&map, Se2::new(1e7, 1e7, 0.0))];
-    assert!(matches!(merge(&far, &params), Err(MergeError::Grid(GridError::TooLarge { .. }))));
+    assert!(matches!(
+        merge(&far, &params, &()),
+        Err(FusionError::Grid(GridError::TooLarge { .. }))
+    ));
     for resolution in [1e-9, 0.0, f64::NAN] {
-        let params = MergeParams { resolution: Some(resolution), ..params };
-        let merged = merge(&[placed(&map, Se2::identity())], &params);
-        assert!(matches!(merged, Err(MergeError::Grid(_))), "{resolution}");
+        let params = FusionParams { resolution: Some(resolution), ..params };
+        let merged = merge(&[placed(&map, Se2::identity())], &params, &());
+        assert!(matches!(merged, Err(FusionError::Grid(_))), "{resolution}");
     }
-    let finer = MergeParams { resolution: Some(0.02), ..MergeParams::paper() };
-    let scattered = transform_grid(&map, &Se2::new(0.0, 0.0, 0.3), &finer);
-    assert!(matches!(scattered, Err(MergeError::TooCoarseToScatter { map: 0, .. })));
+    let finer = FusionParams { resolution: Some(0.02), ..FusionParams::paper() };
+    let scattered = transform_grid(&map, &Se2::new(0.0, 0.0, 0.3), &finer, &());
+    assert!(matches!(scattered, Err(FusionError::TooCoarseToScatter { map: 0, .. })));
 }
 
 #[test]
 fn forward_mapping_by_quarter_turns_is_exact_under_every_gap_treatment_that_keeps_values() {
     let map = room(frame(0.0, 0.0, 0.0));
-    let inverse = transform_grid(&map, &Se2::new(0.5, 0.25, FRAC_PI_2), &MergeParams::default());
+    let inverse =
+        transform_grid(&map, &Se2::new(0.5, 0.25, FRAC_PI_2), &FusionParams::default(), &());
     for gaps in [GapTreatment::None, GapTreatment::HoleFill] {
-        let params = MergeParams {
+        let params = FusionParams {
             mapping: Mapping::Forward { rounding: Default::default(), gaps },
-            ..MergeParams::default()
+            ..FusionParams::default()
         };
-        let forward = transform_grid(&map, &Se2::new(0.5, 0.25, FRAC_PI_2), &params);
+        let forward = transform_grid(&map, &Se2::new(0.5, 0.25, FRAC_PI_2), &params, &());
         assert_eq!(forward, inverse, "{gaps:?}");
     }
 }
@@ -194,11 +198,11 @@ proptest! {
         let map = room(frame(0.3, -0.4, yaw));
         let target_from_source = Se2::new(x, y, theta);
         let interpolation = if bilinear { Interpolation::Bilinear } else { Interpolation::Nearest };
-        let params = MergeParams {
+        let params = FusionParams {
             mapping: Mapping::Inverse(interpolation),
-            ..MergeParams::default()
+            ..FusionParams::default()
         };
-        let moved = transform_grid(&map, &target_from_source, &params).unwrap();
+        let moved = transform_grid(&map, &target_from_source, &params, &()).unwrap();
         for (index, cell) in moved.cells().indexed() {
             let point = target_from_source.inverse() * moved.frame().cell_centre(index);
             let cells = map.frame().cells_from_point(point);
@@ -224,7 +228,7 @@ proptest! {
         for phase in 0..16 {
             let offset = |step: i32| RESOLUTION * 0.25 * f64::from(step);
             let target_from_source = Se2::new(offset(phase % 4), offset(phase / 4), theta);
-            let moved = transform_grid(&map, &target_from_source, &MergeParams::default()).unwrap();
+            let moved = transform_grid(&map, &target_from_source, &FusionParams::default(), &()).unwrap();
             let counted = counts(&moved);
             mean = [mean[0] + counted[0] / 16.0, mean[1] + counted[1] / 16.0];
         }
@@ -239,9 +243,9 @@ proptest! {
     ) {
         let map = room(frame(0.3, -0.4, 0.0));
         let target_from_source = Se2::new(x, y, theta);
-        let params = MergeParams::default();
-        let there = transform_grid(&map, &target_from_source, &params).unwrap();
-        let back = transform_grid(&there, &target_from_source.inverse(), &params).unwrap();
+        let params = FusionParams::default();
+        let there = transform_grid(&map, &target_from_source, &params, &()).unwrap();
+        let back = transform_grid(&there, &target_from_source.inverse(), &params, &()).unwrap();
         // Two nearest-cell steps move a value by less than two cells, so it was near before.
         for (index, &cell) in map.cells().indexed() {
             let near: Vec<Occupancy> = (-2..=2_i64).flat_map(|dy| (-2..=2_i64).map(move |dx| (dx, dy)))
@@ -262,9 +266,9 @@ proptest! {
         let (first, second) = (room(frame(0.2, 0.1, 0.0)), room(frame(0.0, 0.0, 0.0)));
         let first_from_second = Se2::new(0.33, -0.21, 0.6);
         let shift = Se2::new(RESOLUTION * f64::from(column), RESOLUTION * f64::from(row), 0.0);
-        let params = MergeParams::default();
-        let here = merge(&[placed(&first, Se2::identity()), placed(&second, first_from_second)], &params).unwrap();
-        let there = merge(&[placed(&first, shift), placed(&second, shift * first_from_second)], &params).unwrap();
+        let params = FusionParams::default();
+        let here = merge(&[placed(&first, Se2::identity()), placed(&second, first_from_second)], &params, &()).unwrap();
+        let there = merge(&[placed(&first, shift), placed(&second, shift * first_from_second)], &params, &()).unwrap();
         prop_assert_eq!(here.map.cells(), there.map.cells());
         prop_assert_eq!(here.conflicts, there.conflicts);
     }

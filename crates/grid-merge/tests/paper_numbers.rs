@@ -2,7 +2,7 @@
 //! Tags & Topological Information*.
 
 use grid_merge::{
-    ForwardRounding, GapTreatment, Mapping, MergeParams, PlacedMap, merge, transform_grid,
+    ForwardRounding, FusionParams, GapTreatment, Mapping, PlacedMap, merge, transform_grid,
 };
 use nalgebra::{Point2, Vector2};
 use ogm_core::{CellIndex, ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
@@ -18,8 +18,8 @@ fn unit_map(
     OccupancyGrid::new(frame, Grid::new(width, height, cells).expect("a valid grid"))
 }
 
-fn forward(rounding: ForwardRounding, gaps: GapTreatment) -> MergeParams {
-    MergeParams { mapping: Mapping::Forward { rounding, gaps }, ..MergeParams::default() }
+fn forward(rounding: ForwardRounding, gaps: GapTreatment) -> FusionParams {
+    FusionParams { mapping: Mapping::Forward { rounding, gaps }, ..FusionParams::default() }
 }
 
 fn is_known(map: &OccupancyGrid, column: i64, row: i64) -> bool {
@@ -57,14 +57,14 @@ fn t_f1_the_25_points_land_as_printed() {
         if column >= 98 && row >= 98 { Occupancy::OCCUPIED } else { Occupancy::UNKNOWN }
     });
     let printed = forward(ForwardRounding::FloorOfInteger, GapTreatment::None);
-    let floor = transform_grid(&points, &target_from_source, &printed).unwrap();
+    let floor = transform_grid(&points, &target_from_source, &printed, &()).unwrap();
     assert_eq!((known_count(&floor), gap_count(&floor)), (23, 2));
 
     // Whole numbers as cell centres, and floor(x + ½), are rounding to the nearest whole number.
     let frame = GridFrame::new(1.0, Se2::new(-0.5, -0.5, 0.0)).unwrap();
     let points = OccupancyGrid::new(frame, points.cells().clone());
     let centre = forward(ForwardRounding::Centre, GapTreatment::None);
-    let nearest = transform_grid(&points, &paper_motion(300.5), &centre).unwrap();
+    let nearest = transform_grid(&points, &paper_motion(300.5), &centre, &()).unwrap();
     assert_eq!((known_count(&nearest), gap_count(&nearest)), (22, 2));
 }
 
@@ -88,7 +88,7 @@ fn printed_rounding_pulls_a_map_by_half_a_cell_and_the_default_does_not() {
     let truth = target_from_source * Point2::new(60.0, 45.0);
     let centroid_error = |rounding| {
         let params = forward(rounding, GapTreatment::None);
-        let moved = transform_grid(&block, &target_from_source, &params).unwrap();
+        let moved = transform_grid(&block, &target_from_source, &params, &()).unwrap();
         let points = moved.occupied_points(&ClassThresholds::default());
         let sum: Vector2<f64> = points.iter().map(|point| point.coords).sum();
         sum / points.len() as f64 - truth.coords
@@ -111,9 +111,9 @@ fn t_f2_the_gap_share_of_forward_mapping_is_that_of_the_formula() {
         assert!((formula - expected).abs() < 5e-5);
 
         let target_from_source = Se2::new(0.3, 0.7, angle);
-        let scattered = transform_grid(&field, &target_from_source, &params).unwrap();
-        let inverse = MergeParams::default();
-        let footprint = transform_grid(&field, &target_from_source, &inverse).unwrap();
+        let scattered = transform_grid(&field, &target_from_source, &params, &()).unwrap();
+        let inverse = FusionParams::default();
+        let footprint = transform_grid(&field, &target_from_source, &inverse, &()).unwrap();
         let is_gap = |index: CellIndex| {
             let (column, row) = (index.column.cast_signed() as i64, index.row.cast_signed() as i64);
             is_known(&footprint, column, row) && !is_known(&scattered, column, row)
@@ -176,8 +176,9 @@ fn t_f3_gap_treatments_of_a_rotated_field_with_a_wall() {
     });
     let centre = Point2::new(100.0, 100.0);
     let target_from_source = Se2::about(centre, 30_f64.to_radians(), Vector2::new(0.3, 0.7));
-    let moved = |params: &MergeParams| transform_grid(&field, &target_from_source, params).unwrap();
-    let inverse = moved(&MergeParams::default());
+    let moved =
+        |params: &FusionParams| transform_grid(&field, &target_from_source, params, &()).unwrap();
+    let inverse = moved(&FusionParams::default());
     let treated = |gaps| moved(&forward(ForwardRounding::Centre, gaps));
 
     // One map that lies on the output's lattice is copied, so a merge of it is one more blur.
@@ -186,7 +187,7 @@ fn t_f3_gap_treatments_of_a_rotated_field_with_a_wall() {
     let again = forward(ForwardRounding::Centre, GapTreatment::BlurEverywhere);
     for _ in 1..6 {
         let placed = PlacedMap { map: &blurred, reference_from_map: Se2::identity() };
-        blurred = merge(&[placed], &again).unwrap().map;
+        blurred = merge(&[placed], &again, &()).unwrap().map;
     }
     let forward_only = count(&treated(GapTreatment::None), &inverse);
     let filled = count(&treated(GapTreatment::HoleFill), &inverse);

@@ -4,7 +4,7 @@ use std::f64::consts::FRAC_PI_6;
 use std::hint::black_box;
 
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
-use grid_merge::{MergeParams, PlacedMap, merge};
+use grid_merge::{FusionParams, PlacedMap, merge};
 use nalgebra::{Point2, Vector2};
 use ogm_bench::{maps, settings};
 use ogm_core::{Occupancy, OccupancyGrid, Se2, warp_nearest};
@@ -42,7 +42,7 @@ fn warp_and_fuse(criterion: &mut Criterion) {
         group.throughput(Throughput::Elements((map.width() * map.height()) as u64));
         group.bench_function(*name, |bencher| {
             bencher.iter(|| {
-                let merged = merge(black_box(&placed), &MergeParams::default());
+                let merged = merge(black_box(&placed), &FusionParams::default(), &());
                 merged.expect("the box of both is no larger than a grid may be")
             });
         });

@@ -25,16 +25,18 @@ fn grid_match(criterion: &mut Criterion) {
         ("two_floors_5cm_refused", &usual.target.map, &elsewhere.source.map),
     ] {
         group.bench_function(name, |bencher| {
-            bencher.iter(|| match_maps(black_box(target), black_box(source), &params).unwrap());
+            bencher
+                .iter(|| match_maps(black_box(target), black_box(source), &params, &()).unwrap());
         });
     }
-    let prepare = |map| PreparedMap::new(map, &params.thresholds);
+    let prepare = |map| PreparedMap::new(map, &params.thresholds, &()).unwrap();
     group.bench_function("prepare_2cm", |bencher| {
         bencher.iter(|| prepare(black_box(&fine.target.map)));
     });
     let (target, source) = (prepare(&fine.target.map), prepare(&fine.source.map));
     group.bench_function("prepared_2cm", |bencher| {
-        bencher.iter(|| match_prepared(black_box(&target), black_box(&source), &params).unwrap());
+        bencher
+            .iter(|| match_prepared(black_box(&target), black_box(&source), &params, &()).unwrap());
     });
     group.finish();
 }

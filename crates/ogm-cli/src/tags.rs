@@ -50,5 +50,5 @@ fn is_same(a: &Path, b: &Path) -> bool {
 /// Where the tags of a log are.
 pub(crate) fn localised(log: &Path) -> anyhow::Result<Vec<TagEstimate>> {
     let readings = read_tags(log)?;
-    localise(&readings, &FilterParams::default()).with_context(|| log.display().to_string())
+    localise(&readings, &FilterParams::default(), &()).with_context(|| log.display().to_string())
 }

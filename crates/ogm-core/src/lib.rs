@@ -53,13 +53,13 @@ pub use occupancy::{
     probability_from_log_odds,
 };
 pub use outcome::{Outcome, Refusal};
-pub use progress::{Cancelled, Progress, Stage};
+pub use progress::{Cancelled, Progress, Stage, Steps};
 pub use relative_pose::RelativePose;
 pub use robot::RobotId;
 pub use se2::Se2;
 pub use segment::Segment;
 pub use tag::{TagEstimate, TagReading};
-pub use warp::warp_nearest;
+pub use warp::{CellsOnLine, NearestWarp, warp_nearest};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -5,6 +5,7 @@ use std::ops::Mul;
 
 use nalgebra::{Isometry2, Point2, Vector2, Vector3};
 
+use crate::GridError;
 use crate::angle::wrap_angle;
 
 /// A rigid motion of the plane: rotate by θ, then translate by (x, y).
@@ -100,6 +101,17 @@ impl Se2 {
             scale * (sin_over * y - cos_over * x),
             theta,
         )
+    }
+
+    /// That x, y and θ are all finite, for transforms that come from outside.
+    ///
+    /// # Errors
+    /// [`GridError::NonFiniteTransform`].
+    pub fn check_finite(&self) -> Result<(), GridError> {
+        if self.is_finite() {
+            return Ok(());
+        }
+        Err(GridError::NonFiniteTransform { x: self.x(), y: self.y(), theta: self.theta() })
     }
 
     /// Whether x, y and θ are all finite.

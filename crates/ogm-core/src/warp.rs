@@ -1,5 +1,7 @@
 //! A grid seen through a transform.
 
+use std::ops::Range;
+
 use nalgebra::{Point2, Vector2};
 
 use crate::{Grid, GridError, GridFrame, Se2};
@@ -20,56 +22,37 @@ pub fn warp_nearest<T: Copy>(
     target_from_source: &Se2,
     outside: T,
 ) -> Result<Grid<T>, GridError> {
-    let motion = target_from_source;
-    if !motion.is_finite() {
-        return Err(GridError::NonFiniteTransform {
-            x: motion.x(),
-            y: motion.y(),
-            theta: motion.theta(),
-        });
-    }
+    let warp = NearestWarp::new(source_frame, target_frame, target_from_source)?;
     let (width, height) = target_size;
     let mut target = Grid::filled(width, height, outside)?;
-    let walk = CellWalk::new(source_frame, target_frame, motion);
-    if !walk.is_finite() {
-        // So far away that cells are lost in rounding: nothing of the source is here.
-        return Ok(target);
-    }
-    let (columns, rows) = (source.width(), source.height());
     for (row, output) in target.cells_mut().chunks_exact_mut(width).enumerate() {
-        let start = walk.row_start(row);
-        let (from, to) = walk.columns_inside(start, width, columns, rows);
-        let mut at = [
-            FixedPoint::at(start.x, walk.step.x, from),
-            FixedPoint::at(start.y, walk.step.y, from),
-        ];
-        for cell in &mut output[from..to] {
-            let (column, row) = (at[0].floor(), at[1].floor());
-            // The range above is found in floating point, so its ends may be one cell off.
-            let inside = usize::try_from(column).ok().zip(usize::try_from(row).ok());
-            if let Some((column, row)) =
-                inside.filter(|&(column, row)| column < columns && row < rows)
-            {
-                *cell = source.cells()[row * columns + column];
-            }
-            at[0].advance();
-            at[1].advance();
-        }
+        warp.fill_row(source, row, output);
     }
     Ok(target)
 }
 
-/// Source cell coordinates as an affine function of target cells.
-struct CellWalk {
+/// [`warp_nearest`] row by row, for callers that do more on the way.
+#[derive(Debug, Clone, Copy)]
+pub struct NearestWarp {
+    /// Source cell coordinates of the centre of target cell (0, 0).
     origin: Point2<f64>,
-    /// Change a target column.
+    /// Their change a target column.
     step: Vector2<f64>,
-    /// Change a target row.
+    /// Their change a target row.
     row_step: Vector2<f64>,
 }
 
-impl CellWalk {
-    fn new(source_frame: &GridFrame, target_frame: &GridFrame, target_from_source: &Se2) -> Self {
+impl NearestWarp {
+    /// From the lattice of `source_frame` onto that of `target_frame`.
+    ///
+    /// # Errors
+    /// A non-finite transform.
+    pub fn new(
+        source_frame: &GridFrame,
+        target_frame: &GridFrame,
+        target_from_source: &Se2,
+    ) -> Result<Self, GridError> {
+        target_from_source.check_finite()?;
         let source_from_target = target_from_source.inverse();
         let source_cells = |column: f64, row: f64| {
             let point = target_frame.point_from_cells(Point2::new(column, row));
@@ -78,10 +61,28 @@ impl CellWalk {
         let origin = source_cells(0.5, 0.5);
         // A long baseline keeps rounding of large coordinates out of the step.
         let baseline = 65_536.0;
-        Self {
+        Ok(Self {
             origin,
             step: (source_cells(0.5 + baseline, 0.5) - origin) / baseline,
             row_step: (source_cells(0.5, 0.5 + baseline) - origin) / baseline,
+        })
+    }
+
+    /// Sets the cells of target row `row`, `output` from column 0, that `source` covers; leaves
+    /// the others.
+    pub fn fill_row<T: Copy>(&self, source: &Grid<T>, row: usize, output: &mut [T]) {
+        if !self.is_finite() {
+            // So far away that cells are lost in rounding: nothing of the source is here.
+            return;
+        }
+        let start = self.origin + self.row_step * row as f64;
+        let along = 0..i64::try_from(output.len()).unwrap_or(i64::MAX);
+        let cells = CellsOnLine::new(start, self.step, along, (source.width(), source.height()));
+        let first = usize::try_from(cells.first()).unwrap_or(0);
+        for (cell, position) in output[first..].iter_mut().zip(cells) {
+            if let Some(position) = position {
+                *cell = source.cells()[position];
+            }
         }
     }
 
@@ -89,65 +90,94 @@ impl CellWalk {
         let numbers = self.origin.coords.iter().chain(&self.step).chain(&self.row_step);
         numbers.fold(0.0, |sum, x| sum + x).is_finite()
     }
+}
 
-    fn row_start(&self, row: usize) -> Point2<f64> {
-        self.origin + self.row_step * row as f64
-    }
+/// The cells of a grid that equally spaced points of a line fall on.
+///
+/// Two integer additions a point instead of two `floor` calls: coordinates have 32 fractional
+/// bits. An item is the position in the grid's cells, or `None` where the point lies outside; the
+/// first belongs to column [`first`](Self::first), the next to the column after.
+#[derive(Debug, Clone)]
+pub struct CellsOnLine {
+    columns: Range<i64>,
+    at: [i64; 2],
+    step: [i64; 2],
+    width: u64,
+    height: u64,
+}
 
-    /// The range of target columns that can fall on the source, at most one too many at each end.
-    fn columns_inside(
-        &self,
+impl CellsOnLine {
+    /// For columns `along`, whose points lie at `start + column * step` in cells of a grid of
+    /// `size` (columns and rows): those that can fall on it, and at most one more at each end.
+    #[must_use]
+    pub fn new(
         start: Point2<f64>,
-        width: usize,
-        columns: usize,
-        rows: usize,
-    ) -> (usize, usize) {
-        let mut from = 0.0_f64;
-        let mut to = width as f64;
-        for (start, step, extent) in
-            [(start.x, self.step.x, columns as f64), (start.y, self.step.y, rows as f64)]
-        {
-            if step.abs() < 1e-12 {
-                if start < -1.0 || start > extent + 1.0 {
-                    return (0, 0);
-                }
-            } else {
-                let (a, b) = (-start / step, (extent - start) / step);
-                from = from.max(a.min(b).floor() - 1.0);
-                to = to.min(a.max(b).ceil() + 1.0);
-            }
+        step: Vector2<f64>,
+        along: Range<i64>,
+        size: (usize, usize),
+    ) -> Self {
+        let columns = columns_inside(start, step, along, size);
+        let first = columns.start as f64;
+        Self {
+            columns,
+            at: [start.x + step.x * first, start.y + step.y * first].map(to_fixed),
+            step: [step.x, step.y].map(to_fixed),
+            width: size.0 as u64,
+            height: size.1 as u64,
         }
-        if from < to { (to_column(from), to_column(to)) } else { (0, 0) }
+    }
+
+    /// The column of the next item.
+    #[must_use]
+    pub fn first(&self) -> i64 {
+        self.columns.start
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "clamped to a column of the target before"
-)]
-fn to_column(x: f64) -> usize {
-    x.max(0.0) as usize
+impl Iterator for CellsOnLine {
+    type Item = Option<usize>;
+
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "a position in the grid")]
+    fn next(&mut self) -> Option<Option<usize>> {
+        self.columns.next()?;
+        // A negative coordinate is a large one without its sign.
+        let [column, row] = self.at.map(|at| (at >> 32).cast_unsigned());
+        // The range was found in floating point, so its ends may be one cell off.
+        let inside = column < self.width && row < self.height;
+        self.at = [0, 1].map(|axis| self.at[axis].wrapping_add(self.step[axis]));
+        Some(inside.then(|| (row * self.width + column) as usize))
+    }
 }
 
-/// A coordinate with 32 fractional bits: two integer additions a cell instead of a `floor` call.
-struct FixedPoint {
-    value: i64,
-    step: i64,
+fn columns_inside(
+    start: Point2<f64>,
+    step: Vector2<f64>,
+    along: Range<i64>,
+    size: (usize, usize),
+) -> Range<i64> {
+    let (low, high) = (along.start, along.end);
+    let (mut from, mut to) = (low as f64, high as f64);
+    for (start, step, extent) in
+        [(start.x, step.x, size.0 as f64), (start.y, step.y, size.1 as f64)]
+    {
+        if step.abs() < 1e-12 {
+            if start < -1.0 || start > extent + 1.0 {
+                return low..low;
+            }
+        } else {
+            let (a, b) = (-start / step, (extent - start) / step);
+            from = from.max(a.min(b).floor() - 1.0);
+            to = to.min(a.max(b).ceil() + 1.0);
+        }
+    }
+    let (from, to) = (clamped(from, low, high), clamped(to, low, high));
+    from..to.max(from)
 }
 
-impl FixedPoint {
-    fn at(start: f64, step: f64, column: usize) -> Self {
-        Self { value: to_fixed(start + step * column as f64), step: to_fixed(step) }
-    }
-
-    fn floor(&self) -> i64 {
-        self.value >> 32
-    }
-
-    fn advance(&mut self) {
-        self.value = self.value.wrapping_add(self.step);
-    }
+#[expect(clippy::cast_possible_truncation, reason = "clamped to the columns after it saturates")]
+fn clamped(column: f64, low: i64, high: i64) -> i64 {
+    (column as i64).clamp(low, high)
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "saturates; far outside any source grid")]

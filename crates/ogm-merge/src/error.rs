@@ -44,14 +44,14 @@ impl MergeError {
     /// Whether the call was asked to end, at whatever stage it was.
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
-        match self {
+        matches!(
+            self,
             Self::Cancelled(_)
-            | Self::Walk(carpin_walk::WalkError::Cancelled(_))
-            | Self::Fusion(grid_merge::FusionError::Cancelled(_))
-            | Self::Matching(grid_match::MatchError::Cancelled(_))
-            | Self::Radon(radon_merge::RadonError::Cancelled(_))
-            | Self::Tags(rfid_loc::TagError::Cancelled(_)) => true,
-            _ => false,
-        }
+                | Self::Walk(carpin_walk::WalkError::Cancelled(_))
+                | Self::Fusion(grid_merge::FusionError::Cancelled(_))
+                | Self::Matching(grid_match::MatchError::Cancelled(_))
+                | Self::Radon(radon_merge::RadonError::Cancelled(_))
+                | Self::Tags(rfid_loc::TagError::Cancelled(_))
+        )
     }
 }

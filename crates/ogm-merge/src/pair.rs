@@ -48,6 +48,13 @@ pub fn align_pair(
     Ok(report)
 }
 
+/// Share of a call that its method takes; the rest is what the maps say about the answer.
+const SEARCH: f64 = 0.85;
+
+fn searching(progress: &dyn Progress) -> Stage<'_> {
+    Stage::new(progress, 0.0, SEARCH)
+}
+
 /// What every method is given.
 #[derive(Debug, Clone, Copy)]
 struct Pair<'a> {
@@ -115,14 +122,14 @@ impl Pair<'_> {
         let given = &self.params.rfid;
         let lines = line_ransac::Params { seed: self.params.seed, ..given.lines.clone() };
         let params = RfidParams { lines, ..given.clone() };
-        let found = align_by_tags(method, self.target, self.source, &params, progress)?;
+        let found = align_by_tags(method, self.target, self.source, &params, &searching(progress))?;
         let best = match &found.outcome {
             Outcome::Found(target_from_source) => Some(*target_from_source),
             Outcome::Refused(_) => found.evidence.start_target_from_source,
         };
         let warnings = found.evidence.warnings();
         let stages = Stages { tags: Some(found.evidence), ..Stages::default() };
-        let report = self.scored(Method::Tags(method), found.outcome, best, stages)?;
+        let report = self.scored(Method::Tags(method), found.outcome, best, stages, progress)?;
         Ok(PairReport { warnings, ..report })
     }
 
@@ -130,7 +137,7 @@ impl Pair<'_> {
     fn by_walk(&self, progress: &dyn Progress) -> Result<PairReport, MergeError> {
         let [target, source] = [self.target.map, self.source.map];
         let (prior, seed) = (self.params.prior.as_ref(), self.params.seed);
-        let walks = walk_coarse_to_fine(target, source, prior, seed, progress)?;
+        let walks = walk_coarse_to_fine(target, source, prior, seed, &searching(progress))?;
         let outcome = walks.last().map_or(
             Outcome::Refused(Refusal::TooLittleStructure { have: 0, need: 1 }),
             |last| match &last.outcome {
@@ -140,7 +147,7 @@ impl Pair<'_> {
         );
         let best = outcome.clone().found();
         let stages = Stages { walks, ..Stages::default() };
-        let mut report = self.scored(Method::Carpin, outcome, best, stages)?;
+        let mut report = self.scored(Method::Carpin, outcome, best, stages, progress)?;
         let log_odds = report.hypotheses.first().map(|best| best.score);
         if let Some(log_odds) = log_odds.filter(|&log_odds| log_odds <= 0.0) {
             let probability = 1.0 / (1.0 + (-log_odds).exp());
@@ -150,8 +157,9 @@ impl Pair<'_> {
     }
 
     fn by_segments(&self, progress: &dyn Progress) -> Result<PairReport, MergeError> {
-        let params = RadonParams { seed: self.params.seed, ..self.params.radon.clone() };
-        let found = align_by_radon(self.target.map, self.source.map, &params, progress)?;
+        let params = RadonParams { seed: self.params.seed, ..self.params.radon };
+        let [target, source] = [self.target.map, self.source.map];
+        let found = align_by_radon(target, source, &params, &searching(progress))?;
         let verified = found.candidates.iter().find(|candidate| candidate.verified);
         let best = match &found.outcome {
             Outcome::Found(target_from_source) => Some(*target_from_source),
@@ -161,7 +169,7 @@ impl Pair<'_> {
         };
         let outcome = found.outcome.clone();
         let stages = Stages { radon: Some(found), ..Stages::default() };
-        self.scored(Method::Radon, outcome, best, stages)
+        self.scored(Method::Radon, outcome, best, stages, progress)
     }
 
     /// The report of a method that knows one transform at most, accepted or not, and no
@@ -172,11 +180,13 @@ impl Pair<'_> {
         outcome: Outcome<Se2>,
         target_from_source: Option<Se2>,
         stages: Stages,
+        progress: &dyn Progress,
     ) -> Result<PairReport, MergeError> {
         let thresholds = &self.params.matching.thresholds;
         let maps = [self.target.map, self.source.map];
+        let scoring = Stage::new(progress, SEARCH, 1.0);
         let scored = target_from_source
-            .map(|target_from_source| Hypothesis::scored(maps, target_from_source, thresholds))
+            .map(|pose| Hypothesis::scored(maps, pose, thresholds, &scoring))
             .transpose()?;
         Ok(PairReport {
             method,

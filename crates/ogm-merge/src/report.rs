@@ -2,7 +2,7 @@
 
 use grid_match::{Evidence, MatchReport, PreparedMap, score_pose};
 use nalgebra::Matrix3;
-use ogm_core::{ClassThresholds, OccupancyGrid, Outcome, Se2};
+use ogm_core::{ClassThresholds, OccupancyGrid, Outcome, Progress, Refusal, Se2};
 use radon_merge::RadonMatch;
 
 use crate::walk::CarpinReport;
@@ -41,7 +41,7 @@ impl PairReport {
     pub fn verdict(&self) -> Verdict {
         match &self.outcome {
             Outcome::Found(_) => Verdict::Merged,
-            Outcome::Refused(refusal) if refusal.is_ambiguous() => Verdict::Ambiguous,
+            Outcome::Refused(refusal) if is_ambiguous(refusal) => Verdict::Ambiguous,
             Outcome::Refused(_) => Verdict::NoMatch,
         }
     }
@@ -51,6 +51,11 @@ impl PairReport {
     pub fn probability(&self) -> Option<f64> {
         self.hypotheses.first().and_then(|best| best.probability)
     }
+}
+
+/// Whether several answers fit, rather than none.
+fn is_ambiguous(refusal: &Refusal) -> bool {
+    matches!(refusal, Refusal::Ambiguous { .. } | Refusal::SeveralPoses { .. })
 }
 
 /// Whether two maps match.
@@ -107,8 +112,11 @@ impl Hypothesis {
         maps: [&OccupancyGrid; 2],
         target_from_source: Se2,
         thresholds: &ClassThresholds,
+        progress: &dyn Progress,
     ) -> Result<(Self, Evidence), MergeError> {
-        let [target, source] = maps.map(|map| PreparedMap::new(map, thresholds));
+        let [target, source] = maps;
+        let target = PreparedMap::new(target, thresholds, progress)?;
+        let source = PreparedMap::new(source, thresholds, progress)?;
         let evidence = score_pose(&target, &source, &target_from_source)?;
         let score = evidence.score();
         Ok((Self { target_from_source, probability: None, score, covariance: None }, evidence))

@@ -48,11 +48,7 @@ pub(crate) fn walk_coarse_to_fine(
 ///
 /// Only what both maps know is compared: the paper's own measure draws maps together that overlap
 /// in part.
-fn walk_params(
-    maps: [&OccupancyGrid; 2],
-    prior: Option<&Prior>,
-    seed: u64,
-) -> [CarpinParams; 2] {
+fn walk_params(maps: [&OccupancyGrid; 2], prior: Option<&Prior>, seed: u64) -> [CarpinParams; 2] {
     let distance = DistanceParams {
         objective: Objective::Overlap { min_share: 0.25 },
         thresholds: ClassThresholds::default(),

@@ -60,5 +60,8 @@ pub fn merge_by_radon(
         }
         matches.push(found);
     }
-    Ok(TeamMerge { matches, merged: grid_merge::merge(&placed, fusion, &Stage::new(progress, 0.9, 1.0))? })
+    Ok(TeamMerge {
+        matches,
+        merged: grid_merge::merge(&placed, fusion, &Stage::new(progress, 0.9, 1.0))?,
+    })
 }

@@ -51,7 +51,8 @@ pub fn align_carpin(
     let target = at_resolution(target, resolution, thresholds)?;
     let source = at_resolution(source, resolution, thresholds)?;
     let start = start_target_from_source;
-    let outcome = carpin_walk::align(&target, &source, start, &params.rules, &params.search, progress)?;
+    let outcome =
+        carpin_walk::align(&target, &source, start, &params.rules, &params.search, progress)?;
     Ok(CarpinReport { resolution, start_target_from_source, outcome })
 }
 
@@ -88,7 +89,8 @@ mod tests {
     fn a_map_of_nothing_is_refused() {
         let frame = ogm_core::GridFrame::new(0.14, Se2::identity()).unwrap();
         let map = ogm_core::OccupancyGrid::from_ascii(frame, "???\n???").unwrap();
-        let report = align_carpin(&map, &map, Se2::identity(), &CarpinParams::default(), &()).unwrap();
+        let report =
+            align_carpin(&map, &map, Se2::identity(), &CarpinParams::default(), &()).unwrap();
         let expected = Refusal::TooLittleStructure { have: 0, need: 1 };
         assert_eq!(report.outcome.refusal(), Some(&expected));
     }

@@ -36,6 +36,8 @@ pub enum Warning {
     #[error("the tags suffice, so the prior was not used; the method `match` uses it")]
     PriorUnused,
     /// Both maps hold the same cells in the same place.
-    #[error("both maps hold the same cells in the same place: copies of one map, not two robots' maps")]
+    #[error(
+        "both maps hold the same cells in the same place: copies of one map, not two robots' maps"
+    )]
     Copies,
 }

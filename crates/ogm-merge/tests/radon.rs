@@ -16,7 +16,7 @@ fn what_can_be_aligned_is_fused_and_the_rest_stays_out() {
     let mut params = RadonParams::default();
     params.segments.max_segments = 200;
     params.hypotheses.max_candidates = 3;
-    let team = merge_by_radon(first, &[second, &blank], &params, &Default::default()).unwrap();
+    let team = merge_by_radon(first, &[second, &blank], &params, &Default::default(), &()).unwrap();
     let Outcome::Found(target_from_source) = team.matches[0].outcome else {
         panic!("{:?}", team.matches[0].outcome)
     };

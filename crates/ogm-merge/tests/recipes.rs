@@ -5,7 +5,10 @@
 use ogm_core::{
     GridFrame, Occupancy, OccupancyGrid, Outcome, Refusal, Se2, TagEstimate, wrap_angle,
 };
-use ogm_merge::{MergeParams, Method, RfidParams, RobotMap, align, merge};
+use ogm_merge::{
+    AlignParams, FusionParams, Method, RfidParams, RobotMap, TagMethod, align_by_tags, align_pair,
+    fuse,
+};
 use ogm_sim::{FloorPlan, LidarParams, MappingParams, PairParams, SimulatedPair, simulate_pair};
 use rfid_loc::{FilterParams, localise};
 
@@ -28,8 +31,8 @@ impl World {
         };
         let pair = simulate_pair(&FloorPlan::plan_a(), &params).unwrap();
         let filter = FilterParams::default();
-        let target_tags = localise(&pair.target.readings, &filter).unwrap();
-        let source_tags = localise(&pair.source.readings, &filter).unwrap();
+        let target_tags = localise(&pair.target.readings, &filter, &()).unwrap();
+        let source_tags = localise(&pair.source.readings, &filter, &()).unwrap();
         Self { pair, target_tags, source_tags }
     }
 
@@ -42,8 +45,8 @@ impl World {
     }
 }
 
-fn found(method: Method, target: &RobotMap<'_>, source: &RobotMap<'_>) -> Se2 {
-    let report = align(method, target, source, &RfidParams::default()).unwrap();
+fn found(method: TagMethod, target: &RobotMap<'_>, source: &RobotMap<'_>) -> Se2 {
+    let report = align_by_tags(method, target, source, &RfidParams::default(), &()).unwrap();
     match report.outcome {
         Outcome::Found(target_from_source) => target_from_source,
         Outcome::Refused(refusal) => panic!("{method:?} refused: {refusal}"),
@@ -77,10 +80,10 @@ fn reframed(
 fn every_method_finds_the_truth_to_what_it_promises() {
     let world = World::new();
     for (method, metres) in [
-        (Method::Rfid1, 0.2),
-        (Method::Rfid1b, 0.1),
-        (Method::Rfid2, 0.1),
-        (Method::Rfid3, 0.2 * RESOLUTION),
+        (TagMethod::Rfid1, 0.2),
+        (TagMethod::Rfid1b, 0.1),
+        (TagMethod::Rfid2, 0.1),
+        (TagMethod::Rfid3, 0.2 * RESOLUTION),
     ] {
         let target_from_source = found(method, &world.target(), &world.source());
         let (error, _) = difference(target_from_source, world.pair.target_from_source);
@@ -91,8 +94,8 @@ fn every_method_finds_the_truth_to_what_it_promises() {
 #[test]
 fn swapping_the_maps_gives_the_inverse() {
     let world = World::new();
-    let target_from_source = found(Method::Rfid3, &world.target(), &world.source());
-    let source_from_target = found(Method::Rfid3, &world.source(), &world.target());
+    let target_from_source = found(TagMethod::Rfid3, &world.target(), &world.source());
+    let source_from_target = found(TagMethod::Rfid3, &world.source(), &world.target());
     let (metres, radians) = difference(source_from_target.inverse(), target_from_source);
     assert!(metres < 0.2 * RESOLUTION && radians < 1e-3, "{metres} m, {radians}");
 }
@@ -100,13 +103,13 @@ fn swapping_the_maps_gives_the_inverse() {
 #[test]
 fn another_map_frame_changes_the_answer_by_just_that() {
     let world = World::new();
-    let target_from_source = found(Method::Rfid3, &world.target(), &world.source());
+    let target_from_source = found(TagMethod::Rfid3, &world.target(), &world.source());
     for quarter in 0..4 {
         let theta = 0.3 + f64::from(quarter) * std::f64::consts::FRAC_PI_2;
         let new_from_old = Se2::new(7.0, -3.0, theta);
         let (map, tags) = reframed(&world.pair.source.map, &world.source_tags, new_from_old);
         let moved_target_from_source =
-            found(Method::Rfid3, &world.target(), &RobotMap { map: &map, tags: &tags });
+            found(TagMethod::Rfid3, &world.target(), &RobotMap { map: &map, tags: &tags });
         let (metres, _) = difference(moved_target_from_source * new_from_old, target_from_source);
         assert!(metres < 0.2 * RESOLUTION, "{metres} m with the frame turned by {theta}");
     }
@@ -118,7 +121,9 @@ fn maps_of_two_resolutions_align_at_the_coarser_one() {
     let thresholds = ogm_core::ClassThresholds::default();
     let coarse = grid_merge::coarsen(&world.pair.source.map, 0.08, &thresholds).unwrap();
     let source = RobotMap { map: &coarse, tags: &world.source_tags };
-    let report = align(Method::Rfid3, &world.target(), &source, &RfidParams::default()).unwrap();
+    let report =
+        align_by_tags(TagMethod::Rfid3, &world.target(), &source, &RfidParams::default(), &())
+            .unwrap();
     assert_eq!(report.resolution, 0.08);
     let target_from_source = report.outcome.found().unwrap();
     let (metres, _) = difference(target_from_source, world.pair.target_from_source);
@@ -128,10 +133,13 @@ fn maps_of_two_resolutions_align_at_the_coarser_one() {
 #[test]
 fn the_merged_map_agrees_with_both_where_they_were_known() {
     let world = World::new();
-    let (report, merged) =
-        merge(Method::Rfid3, &world.target(), &world.source(), &MergeParams::default()).unwrap();
-    let merged = merged.unwrap();
-    assert!(report.evidence.refinement.unwrap().termination.is_converged());
+    let (target, source) = (world.target(), world.source());
+    let method = Method::Tags(TagMethod::Rfid3);
+    let report = align_pair(method, &target, &source, &AlignParams::default(), &()).unwrap();
+    assert!(report.stages.tags.as_ref().unwrap().refinement.unwrap().termination.is_converged());
+    let [component] = &report.components()[..] else { panic!("{report:?}") };
+    let maps = [target.map, source.map];
+    let merged = fuse(&maps, component, &FusionParams::default(), &()).unwrap();
     let share = merged.conflict_count as f64 / merged.compared as f64;
     assert!(share < 0.02, "{share} of the common cells in conflict");
     let known =
@@ -145,11 +153,11 @@ fn the_merged_map_agrees_with_both_where_they_were_known() {
 fn valid_input_with_too_little_in_it_is_refused_with_its_reason() {
     let world = World::new();
     let refusal = |method, target: &RobotMap<'_>, source: &RobotMap<'_>| {
-        let report = align(method, target, source, &RfidParams::default()).unwrap();
+        let report = align_by_tags(method, target, source, &RfidParams::default(), &()).unwrap();
         report.outcome.refusal().cloned()
     };
     let untagged = RobotMap { tags: &[], ..world.source() };
-    for method in [Method::Rfid1, Method::Rfid1b, Method::Rfid2, Method::Rfid3] {
+    for method in [TagMethod::Rfid1, TagMethod::Rfid1b, TagMethod::Rfid2, TagMethod::Rfid3] {
         let expected = Some(Refusal::TooFewTags { have: 0, need: 3 });
         assert_eq!(refusal(method, &world.target(), &untagged), expected, "{method:?}");
     }
@@ -160,7 +168,7 @@ fn valid_input_with_too_little_in_it_is_refused_with_its_reason() {
         let cells = ogm_core::Grid::filled(side, side, cell).unwrap();
         let map = OccupancyGrid::new(frame, cells);
         let empty = RobotMap { map: &map, tags: &world.source_tags };
-        let reason = refusal(Method::Rfid3, &world.target(), &empty);
+        let reason = refusal(TagMethod::Rfid3, &world.target(), &empty);
         assert!(
             matches!(reason, Some(Refusal::TooLittleStructure { .. } | Refusal::NoLines { .. })),
             "{side} cells of {cell:?}: {reason:?}"
@@ -172,7 +180,7 @@ fn valid_input_with_too_little_in_it_is_refused_with_its_reason() {
         tag.position = world.source_tags[0].position;
     }
     let together = RobotMap { tags: &together, ..world.source() };
-    let reason = refusal(Method::Rfid2, &world.target(), &together);
+    let reason = refusal(TagMethod::Rfid2, &world.target(), &together);
     assert!(matches!(reason, Some(Refusal::TagsCoincide { .. })), "{reason:?}");
 }
 
@@ -182,5 +190,8 @@ fn a_tag_that_is_nowhere_is_an_error() {
     let mut tags = world.source_tags.clone();
     tags[0].position.x = f64::NAN;
     let source = RobotMap { tags: &tags, ..world.source() };
-    assert!(align(Method::Rfid3, &world.target(), &source, &RfidParams::default()).is_err());
+    assert!(
+        align_by_tags(TagMethod::Rfid3, &world.target(), &source, &RfidParams::default(), &())
+            .is_err()
+    );
 }

@@ -7,7 +7,7 @@ use radon_merge::{RadonParams, find_transform};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let pair = simulate_pair(&FloorPlan::random(7)?, &PairParams { seed: 7, ..PairParams::sa() })?;
-    let found = find_transform(&pair.target.map, &pair.source.map, &RadonParams::default())?;
+    let found = find_transform(&pair.target.map, &pair.source.map, &RadonParams::default(), &())?;
 
     println!("{} pairs of segments, {} hypotheses", found.compared, found.hypotheses);
     for candidate in &found.candidates {

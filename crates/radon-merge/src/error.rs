@@ -1,6 +1,6 @@
 //! What cannot be meant as a pair of maps to merge.
 
-use ogm_core::GridError;
+use ogm_core::{Cancelled, GridError};
 
 /// Maps, points or parameters that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,6 +9,9 @@ pub enum RadonError {
     /// Maps of different resolution, or a transform that is not finite or leads too far.
     #[error(transparent)]
     Grid(#[from] GridError),
+    /// The search was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// A point with a NaN or infinite part.
     #[error("point {index} is at ({x}, {y}); coordinates must be finite")]
     NonFinitePoint {

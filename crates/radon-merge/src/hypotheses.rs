@@ -1,7 +1,10 @@
 //! Many poses from pairs of segments, each judged by how walls meet, and the best of them.
 
 use nalgebra::Point2;
-use ogm_core::{CellIndex, ClassThresholds, Grid, OccupancyGrid, Se2, wrap_angle, wrap_period};
+use ogm_core::{
+    Cancelled, CellIndex, ClassThresholds, Grid, OccupancyGrid, Progress, Se2, Steps, wrap_angle,
+    wrap_period,
+};
 use std::f64::consts::PI;
 
 use crate::approximate::{Line, PoseRule, pose_between};
@@ -93,17 +96,19 @@ pub(crate) fn propose(
     judge: &Judge,
     params: &HypothesisParams,
     distinctive: &DistinctiveParams,
-) -> Proposals {
+    progress: &dyn Progress,
+) -> Result<Proposals, Cancelled> {
     let [target, source] = segments.map(|segments| {
         let shapes = segments.iter().map(Shape::new);
         shapes.collect::<Vec<Option<Shape<'_>>>>()
     });
+    let done = Steps::new(progress, target.len());
     let mut all = Proposals { promising: Vec::new(), compared: 0, judged: 0 };
     for (block, targets) in target.chunks(BLOCK).enumerate() {
         if all.judged >= params.max_hypotheses {
             break;
         }
-        let judged = map_in_order(targets, |offset, target| {
+        let judged = map_in_order(targets, |offset, target| -> Result<_, Cancelled> {
             let mut judged = Vec::new();
             for (source_segment, source) in source.iter().enumerate() {
                 let (Some(target), Some(source)) = (target, source) else { continue };
@@ -125,18 +130,21 @@ pub(crate) fn propose(
                     order: 0,
                 });
             }
-            judged
+            done.step()?;
+            Ok(judged)
         });
         all.compared += targets.len() * source.len();
-        for mut hypothesis in judged.into_iter().flatten() {
-            hypothesis.order = all.judged;
-            all.judged += 1;
-            if hypothesis.score > PROMISING {
-                all.promising.push(hypothesis);
+        for judged in judged {
+            for mut hypothesis in judged? {
+                hypothesis.order = all.judged;
+                all.judged += 1;
+                if hypothesis.score > PROMISING {
+                    all.promising.push(hypothesis);
+                }
             }
         }
     }
-    all
+    Ok(all)
 }
 
 /// A segment, ready to be compared with many.

@@ -13,7 +13,7 @@
 //! let lidar = LidarParams { beams: 257, scan_every: 0.48, ..LidarParams::sa() };
 //! let world = PairParams { seed: 5, lidar, ..PairParams::sa() };
 //! let pair = simulate_pair(&FloorPlan::random(5)?, &world)?;
-//! let found = find_transform(&pair.target.map, &pair.source.map, &RadonParams::default())?;
+//! let found = find_transform(&pair.target.map, &pair.source.map, &RadonParams::default(), &())?;
 //! let target_from_source = found.outcome.found().expect("these maps match");
 //! let error = target_from_source.between(&pair.target_from_source);
 //! assert!(error.translation().norm() < 0.1 && error.theta().abs() < 0.01);

@@ -1,6 +1,6 @@
 //! All blocks in a row, and the way back to another segment.
 
-use ogm_core::{Grid, OccupancyGrid, Outcome, Refusal, Se2};
+use ogm_core::{Cancelled, Grid, OccupancyGrid, Outcome, Progress, Refusal, Se2, Stage, Steps};
 
 use crate::approximate::box_centre;
 use crate::hypotheses::{Apart, Judge, Rotations, distinct, propose};
@@ -70,6 +70,13 @@ impl Candidate {
 /// Windows that a translation may move on to when the best shift lies at the rim.
 const MAX_WINDOWS: usize = 4;
 
+/// Shares of the work after which the walls of both maps are found, and the blocks of the target
+/// and then of the source are through.
+const PREPARED: [f64; 3] = [0.05, 0.15, 0.25];
+
+/// Share of the work after which all poses are proposed.
+const PROPOSED: f64 = 0.6;
+
 /// Finds the transform that maps points of `source` into the frame of `target` by segments of
 /// walls that look alike, tuned by the Radon transform and by the similarity of the maps, and
 /// verified (Saeedi et al., Fig. 1).
@@ -80,13 +87,26 @@ const MAX_WINDOWS: usize = 4;
 /// refused, too. Equal input and seed give equal bits on any number of threads.
 ///
 /// # Errors
-/// Maps of different resolution, or a parameter out of range.
+/// Maps of different resolution, a parameter out of range, or [`RadonError::Cancelled`].
 pub fn find_transform(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
     params: &RadonParams,
+    progress: &dyn Progress,
+) -> Result<RadonMatch, RadonError> {
+    let found = search(target, source, params, progress)?;
+    progress.report(1.0);
+    Ok(found)
+}
+
+fn search(
+    target: &OccupancyGrid,
+    source: &OccupancyGrid,
+    params: &RadonParams,
+    progress: &dyn Progress,
 ) -> Result<RadonMatch, RadonError> {
     params.check()?;
+    progress.go_on(0.0)?;
     check_resolutions(target, source)?;
     let thresholds = &params.thresholds;
     let fields = [target, source].map(|map| WallField::new(map, thresholds));
@@ -100,7 +120,11 @@ pub fn find_transform(
             outcome: Outcome::Refused(Refusal::TooLittleStructure { have: 0, need: 1 }),
         });
     };
-    let maps = [stages(&target_walls, 0, params)?, stages(&source_walls, 1, params)?];
+    progress.go_on(PREPARED[0])?;
+    let target_stages = stages(&target_walls, 0, params)?;
+    progress.go_on(PREPARED[1])?;
+    let maps = [target_stages, stages(&source_walls, 1, params)?];
+    progress.go_on(PREPARED[2])?;
     let correlation = RotationCorrelation::between(&maps[0].radon, &maps[1].radon)?;
     let proposals = propose(
         [&maps[0].segments, &maps[1].segments],
@@ -108,7 +132,8 @@ pub fn find_transform(
         &Judge::new(&target_walls, &source_walls, thresholds, &params.hypotheses),
         &params.hypotheses,
         &params.distinctive,
-    );
+        &Stage::new(progress, PREPARED[2], PROPOSED),
+    )?;
 
     let cell = target.frame().resolution();
     let centre = box_centre(&source_walls.walls);
@@ -119,11 +144,14 @@ pub fn find_transform(
         &Apart { distance: window, angle: 3.0_f64.to_radians() },
         params.hypotheses.max_candidates,
     );
+    let tuned = Stage::new(progress, PROPOSED, 1.0);
+    let tuned = Steps::new(&tuned, hypotheses.len());
     let candidates = map_in_order(&hypotheses, |_, &(hypothesis, support)| {
-        let window = tune(target, source, &hypothesis, params)?;
+        let window = tune(target, source, &hypothesis, params, progress)?;
         let verification = verify_prepared(&target_walls, &source_walls, &window);
         let settled = !window.is_at_rim();
         let verified = settled && verification.is_accepted(&params.verification);
+        tuned.step()?;
         Ok(Candidate { hypothesis, support, window, verification, verified })
     });
     let candidates: Vec<Candidate> = candidates.into_iter().collect::<Result<_, RadonError>>()?;
@@ -182,10 +210,14 @@ fn tune(
     source: &OccupancyGrid,
     hypothesis: &Hypothesis,
     params: &RadonParams,
+    progress: &dyn Progress,
 ) -> Result<TranslationWindow, RadonError> {
     let mut start_target_from_source = hypothesis.turned_target_from_source;
     let mut windows = 0;
     loop {
+        if progress.is_cancelled() {
+            return Err(RadonError::Cancelled(Cancelled));
+        }
         let window = tune_translation(
             target,
             source,

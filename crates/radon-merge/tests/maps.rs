@@ -83,7 +83,7 @@ fn assert_found(outcome: &Outcome<Se2>, truth_target_from_source: Se2, what: &st
 fn assert_found_when_turned_by(degrees: f64) {
     let world_from_source = Se2::new(4.5, 2.5, degrees.to_radians());
     let source = map(world_from_source, 1.2, 8.1);
-    let found = find_transform(&target(), &source, &params()).expect("valid maps");
+    let found = find_transform(&target(), &source, &params(), &()).expect("valid maps");
     let truth_target_from_source = true_target_from_source(world_from_source);
     assert_found(&found.outcome, truth_target_from_source, &format!("{degrees}°"));
 }
@@ -110,9 +110,9 @@ fn swapped_maps_give_the_inverse_and_an_equal_seed_the_same_bits() {
     let world_from_source = Se2::new(4.5, 2.5, 2.0);
     let (target, source) = (target(), map(world_from_source, 1.2, 8.1));
     let truth_target_from_source = true_target_from_source(world_from_source);
-    let back = find_transform(&source, &target, &params()).unwrap();
+    let back = find_transform(&source, &target, &params(), &()).unwrap();
     assert_found(&back.outcome, truth_target_from_source.inverse(), "swapped");
-    let again = find_transform(&source, &target, &params()).unwrap();
+    let again = find_transform(&source, &target, &params(), &()).unwrap();
     assert_eq!(back.outcome, again.outcome);
     assert_eq!((back.compared, back.hypotheses), (again.compared, again.hypotheses));
 }
@@ -125,7 +125,7 @@ fn where_the_origin_of_a_map_lies_does_not_matter() {
     let frame = source.frame();
     let elsewhere = GridFrame::new(0.05, moved_from_source * frame.map_from_grid()).unwrap();
     let moved = OccupancyGrid::new(elsewhere, source.cells().clone());
-    let found = find_transform(&target, &moved, &params()).unwrap();
+    let found = find_transform(&target, &moved, &params(), &()).unwrap();
     let truth_target_from_source =
         true_target_from_source(world_from_source) * moved_from_source.inverse();
     assert_found(&found.outcome, truth_target_from_source, "moved");
@@ -136,7 +136,7 @@ fn maps_that_say_too_little_are_refused() {
     let target = target();
     let frame = *target.frame();
     let unknown = OccupancyGrid::new(frame, target.cells().map(|_| Occupancy::UNKNOWN));
-    let found = find_transform(&target, &unknown, &params()).unwrap();
+    let found = find_transform(&target, &unknown, &params(), &()).unwrap();
     assert!(matches!(found.outcome, Outcome::Refused(Refusal::TooLittleStructure { .. })));
     assert!(found.maps.is_none());
 
@@ -148,7 +148,7 @@ fn maps_that_say_too_little_are_refused() {
             _ => Occupancy::UNKNOWN,
         };
     }
-    let found = find_transform(&corridor, &corridor, &params()).unwrap();
+    let found = find_transform(&corridor, &corridor, &params(), &()).unwrap();
     assert!(found.outcome.refusal().is_some(), "a bare corridor fits everywhere along itself");
 }
 
@@ -172,7 +172,7 @@ fn a_floor_of_equal_halves_has_rivals() {
         }
     }
     let whole = OccupancyGrid::new(frame, cells);
-    let found = find_transform(&whole, &whole, &params()).unwrap();
+    let found = find_transform(&whole, &whole, &params(), &()).unwrap();
     let rivals = Refusal::SeveralPoses { poses: 2, probability: 0.5, need: 1.0 };
     assert_eq!(found.outcome, Outcome::Refused(rivals));
     assert_eq!(found.accepted, None);
@@ -183,11 +183,11 @@ fn what_cannot_be_meant_is_an_error() {
     let target = target();
     let coarse = GridFrame::new(0.2, Se2::identity()).unwrap();
     let other = OccupancyGrid::new(coarse, target.cells().clone());
-    let found = find_transform(&target, &other, &params());
+    let found = find_transform(&target, &other, &params(), &());
     assert!(matches!(found, Err(RadonError::Grid(_))));
     let mut wrong = params();
     wrong.edges.low = f64::NAN;
-    let found = find_transform(&target, &target, &wrong);
+    let found = find_transform(&target, &target, &wrong, &());
     assert!(matches!(found, Err(RadonError::InvalidParameter { .. })));
     let nowhere = Se2::new(f64::NAN, 0.0, 0.0);
     let thresholds = wrong.thresholds;

@@ -26,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 }
             })
             .collect();
-        for estimate in localise(&log, &FilterParams::default())? {
+        for estimate in localise(&log, &FilterParams::default(), &())? {
             println!(
                 "{name}: tag {} at ({:.3}, {:.3}), {:.0} mm off, certainty {:.2}, second peak {:.2}",
                 estimate.tag_id,

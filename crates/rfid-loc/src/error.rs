@@ -1,6 +1,6 @@
 //! What cannot be meant as a reading, an estimate or a parameter.
 
-use ogm_core::GridError;
+use ogm_core::{Cancelled, GridError};
 
 /// Input that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -59,4 +59,7 @@ pub enum TagError {
     /// A search area that is no grid, or a rotation that is not finite.
     #[error(transparent)]
     Grid(#[from] GridError),
+    /// The call was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }

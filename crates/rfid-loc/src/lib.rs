@@ -21,7 +21,7 @@
 //!         TagReading { tag_id: 7, robot_position, range }
 //!     })
 //!     .collect();
-//! let estimates = localise(&log, &FilterParams::default())?;
+//! let estimates = localise(&log, &FilterParams::default(), &())?;
 //! assert!((estimates[0].position - tag).norm() < 0.01);
 //! assert!(estimates[0].certainty > 0.75);
 //! # Ok::<(), rfid_loc::TagError>(())

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use ogm_core::{TagEstimate, TagReading};
+use ogm_core::{Progress, Steps, TagEstimate, TagReading};
 
 use crate::{FilterParams, TagError, TagFilter};
 
@@ -12,15 +12,18 @@ use crate::{FilterParams, TagError, TagFilter};
 /// readings multiply over gaps in which it was out of range (Tsardoulias et al., section 3).
 ///
 /// # Errors
-/// The first reading that [`TagFilter::update`] does not take, of the smallest tag that has one.
+/// The first reading that [`TagFilter::update`] does not take, of the smallest tag that has one,
+/// or [`TagError::Cancelled`].
 pub fn localise(
     readings: &[TagReading],
     params: &FilterParams,
+    progress: &dyn Progress,
 ) -> Result<Vec<TagEstimate>, TagError> {
     let mut by_tag: BTreeMap<u32, Vec<&TagReading>> = BTreeMap::new();
     for reading in readings {
         by_tag.entry(reading.tag_id).or_default().push(reading);
     }
+    let done = Steps::new(progress, readings.len());
     let mut estimates = Vec::with_capacity(by_tag.len());
     for (tag_id, readings) in by_tag {
         let Some(first) = readings.first() else {
@@ -29,9 +32,11 @@ pub fn localise(
         let mut filter = TagFilter::around(first.robot_position, params)?;
         for reading in readings {
             filter.update(reading.robot_position, reading.range)?;
+            done.step()?;
         }
         estimates.extend(filter.estimate(tag_id));
     }
+    progress.report(1.0);
     Ok(estimates)
 }
 
@@ -60,8 +65,8 @@ mod tests {
         let interleaved: Vec<_> =
             logs[0].iter().zip(&logs[1]).flat_map(|(&a, &b)| [a, b]).collect();
         let params = FilterParams::default();
-        let estimates = localise(&interleaved, &params).unwrap();
-        assert_eq!(estimates, localise(&logs.concat(), &params).unwrap());
+        let estimates = localise(&interleaved, &params, &()).unwrap();
+        assert_eq!(estimates, localise(&logs.concat(), &params, &()).unwrap());
         for (estimate, (id, position)) in estimates.iter().zip([tags[1], tags[0]]) {
             assert_eq!((estimate.tag_id, estimate.readings), (id, 30));
             let error = (estimate.position - position).norm();
@@ -71,14 +76,14 @@ mod tests {
 
     #[test]
     fn no_readings_no_tags() {
-        assert_eq!(localise(&[], &FilterParams::default()), Ok(vec![]));
+        assert_eq!(localise(&[], &FilterParams::default(), &()), Ok(vec![]));
     }
 
     #[test]
     fn one_impossible_reading_is_an_error_and_not_a_gap() {
         let mut readings = log(4, Point2::new(0.2, 0.2));
         readings[7].range = f64::NAN;
-        let error = localise(&readings, &FilterParams::default()).unwrap_err();
+        let error = localise(&readings, &FilterParams::default(), &()).unwrap_err();
         assert!(matches!(error, TagError::Range { .. }), "{error}");
     }
 }

@@ -101,18 +101,18 @@ fn judge(
     seed: u64,
     pair: &LabelledPair,
 ) -> anyhow::Result<Judged> {
-    let report = match_maps(&pair.target, &pair.source, &MatchParams::default())?;
+    let report = match_maps(&pair.target, &pair.source, &MatchParams::default(), &())?;
     let hypotheses: Vec<Best> = report
         .hypotheses
         .iter()
         .map(|hypothesis| {
-            let pose = &hypothesis.target_from_source;
+            let pose = &hypothesis.pose.target_from_source;
             let [displacement, turn] = pair
                 .truth
                 .map_or([f64::INFINITY; 2], |truth| [truth.displacement(pose), truth.turn(pose)]);
             let unsure = pair.truth.map_or(0.0, |truth| truth.residual);
             let is_right = displacement < RIGHT_M + unsure && turn < RIGHT_RAD;
-            Best { probability: hypothesis.probability, is_right, displacement, turn }
+            Best { probability: hypothesis.pose.probability, is_right, displacement, turn }
         })
         .collect();
     Ok(Judged {

@@ -1,7 +1,7 @@
 //! The figures of X4: how a tag is found, how the methods align, how cells are fused.
 
 use anyhow::Context;
-use grid_merge::{ForwardRounding, GapTreatment, Mapping, MergeParams, PlacedMap, merge};
+use grid_merge::{ForwardRounding, FusionParams, GapTreatment, Mapping, PlacedMap, merge};
 use image::RgbImage;
 use nalgebra::Point2;
 use ogm_core::{OccupancyGrid, Se2, TagReading};
@@ -99,7 +99,7 @@ fn merged(
     source: &OccupancyGrid,
     target_from_source: Se2,
 ) -> anyhow::Result<Figure> {
-    let merged = fuse(target, source, target_from_source, &MergeParams::default())?;
+    let merged = fuse(target, source, target_from_source, &FusionParams::default())?;
     let panels = [
         occupancy(&crop_known(target)?),
         occupancy(&crop_known(source)?),
@@ -119,9 +119,9 @@ fn gaps(
     source: &OccupancyGrid,
     target_from_source: Se2,
 ) -> anyhow::Result<Figure> {
-    let forward = |gaps| MergeParams {
+    let forward = |gaps| FusionParams {
         mapping: Mapping::Forward { rounding: ForwardRounding::Centre, gaps },
-        ..MergeParams::default()
+        ..FusionParams::default()
     };
     let mut panels = Vec::new();
     for gaps in [GapTreatment::None, GapTreatment::HoleFill] {
@@ -141,11 +141,11 @@ fn fuse(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
     target_from_source: Se2,
-    params: &MergeParams,
+    params: &FusionParams,
 ) -> anyhow::Result<OccupancyGrid> {
     let maps = [
         PlacedMap { map: target, reference_from_map: Se2::identity() },
         PlacedMap { map: source, reference_from_map: target_from_source },
     ];
-    Ok(merge(&maps, params)?.map)
+    Ok(merge(&maps, params, &())?.map)
 }

@@ -228,7 +228,7 @@ fn run_world(
     }
     let start = Instant::now();
     let (target, source) = (&world.pair.target.map, &world.pair.source.map);
-    let report = match_maps(target, source, &MatchParams::default())?;
+    let report = match_maps(target, source, &MatchParams::default(), &())?;
     let milliseconds = start.elapsed().as_secs_f64() * 1e3;
     runs.push(Run {
         experiment: "X4",

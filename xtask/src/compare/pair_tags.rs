@@ -70,7 +70,7 @@ fn localised(
 ) -> anyhow::Result<Vec<TagEstimate>> {
     let tags: Vec<_> = (0..).zip(places).collect();
     let readings = tag_readings(drive, &tags, &TagParams::default(), seed)?;
-    Ok(localise(&readings, &FilterParams::default())?)
+    Ok(localise(&readings, &FilterParams::default(), &())?)
 }
 
 /// Two metres of drive for each free square metre, so that most places are passed more than once,

@@ -110,7 +110,7 @@ fn answer(pair: &MapPair, seed: u64) -> anyhow::Result<Answers> {
             answers.runs.extend(refused);
         }
     }
-    let matched = match_maps(&pair.target, &pair.source, &MatchParams::default())?;
+    let matched = match_maps(&pair.target, &pair.source, &MatchParams::default(), &())?;
     answers.runs.push(run(MATCH, judged(matched.outcome)));
     Ok(answers)
 }

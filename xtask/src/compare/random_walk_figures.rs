@@ -26,7 +26,8 @@ pub(super) fn draw(args: &Args) -> anyhow::Result<Vec<Figure>> {
         let pair = RescuePair::of(&FloorPlan::plan_a(), case.coverage, args.seed)?;
         let start = pair.start(case.start)?;
         let params = Params { seed: args.seed, ..Params::default() };
-        let outcome = align(&pair.target, &pair.source, start, &RandomWalk::default(), &params)?;
+        let outcome =
+            align(&pair.target, &pair.source, start, &RandomWalk::default(), &params, &())?;
         let Some(found) = outcome.found() else { continue };
         let truth = pair.distance()?.psi(&pair.target_from_source)?.psi;
         figures.push(trend(&found, truth, name, case.name));
@@ -94,7 +95,7 @@ fn theorem(args: &Args) -> anyhow::Result<Figure> {
         .map(|stream| {
             let mut distance = distance.clone();
             let psi = |at: &Placement| distance.psi_at(at).psi;
-            random_walk(psi, start, &everywhere, &rules, &budget(stream))
+            random_walk(psi, start, &everywhere, &rules, &budget(stream), &())
         })
         .collect::<Result<_, _>>()?;
     let toy_box = SearchBox { centre: [0.0; 3], reach: [5.0; 3] };
@@ -103,7 +104,7 @@ fn theorem(args: &Args) -> anyhow::Result<Figure> {
         .into_par_iter()
         .map(|stream| {
             let psi = |at: &Placement| at.iter().map(|part| part.abs()).sum();
-            random_walk(psi, [4.0, -4.0, 4.0], &toy_box, &blind, &budget(stream))
+            random_walk(psi, [4.0, -4.0, 4.0], &toy_box, &blind, &budget(stream), &())
         })
         .collect::<Result<_, _>>()?;
     let least = on_maps.iter().map(|walk| walk.best_psi).fold(f64::INFINITY, f64::min);

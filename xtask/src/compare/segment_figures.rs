@@ -19,7 +19,7 @@ const GAP: u32 = 8;
 pub(super) fn draw(maps: &[OccupancyGrid; 3]) -> anyhow::Result<Vec<Figure>> {
     let [first, second, third] = maps;
     let params = RadonParams::default();
-    let found = find_transform(first, second, &params)?;
+    let found = find_transform(first, second, &params, &())?;
     let mut figures = Vec::new();
     let shown = found.accepted.unwrap_or(0);
     if let (Some(stages), Some(candidate)) = (&found.maps, found.candidates.get(shown)) {
@@ -67,7 +67,7 @@ pub(super) fn draw(maps: &[OccupancyGrid; 3]) -> anyhow::Result<Vec<Figure>> {
         figures.push(peaks(&stages[0].radon, &stages[1].radon));
     }
     figures.push(surfaces(first, second)?);
-    let fusion = grid_merge::MergeParams::default();
+    let fusion = grid_merge::FusionParams::default();
     let team = merge_by_radon(first, &[second, third], &params, &fusion)?;
     let row = [first, second, third, &team.merged.map]
         .map(|map| crop_known(map).map(|cropped| occupancy(&cropped)));

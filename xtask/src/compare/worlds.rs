@@ -43,8 +43,8 @@ impl World {
         };
         let pair = simulate_pair(&plan, &PairParams { seed, ..PairParams::default() })?;
         let filter = FilterParams::default();
-        let target_tags = localise(&pair.target.readings, &filter)?;
-        let source_tags = localise(&pair.source.readings, &filter)?;
+        let target_tags = localise(&pair.target.readings, &filter, &())?;
+        let source_tags = localise(&pair.source.readings, &filter, &())?;
         Ok(Self { pair, target_tags, source_tags, seed })
     }
 

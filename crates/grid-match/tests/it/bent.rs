@@ -14,7 +14,8 @@ fn bent() -> Vec<Wall> {
 }
 
 fn prepared(walls: &[Wall]) -> PreparedMap {
-    PreparedMap::new(&draw(walls, VIEW, 0.05, Se2::identity()), &ClassThresholds::default())
+    PreparedMap::new(&draw(walls, VIEW, 0.05, Se2::identity()), &ClassThresholds::default(), &())
+        .unwrap()
 }
 
 #[test]

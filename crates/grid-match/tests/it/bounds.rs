@@ -20,7 +20,7 @@ fn a_prior_decides_between_the_two_ways_a_symmetric_room_fits() {
     for world_from_world in [Se2::identity(), Se2::new(8.0, 5.0, PI)] {
         let expected = world_from_world * world_from_source;
         let rough = Se2::new(expected.x() + 0.4, expected.y() - 0.3, expected.theta() + 0.1);
-        let report = match_maps(&target, &source, &believing(rough, 0.3, 0.1)).unwrap();
+        let report = match_maps(&target, &source, &believing(rough, 0.3, 0.1), &()).unwrap();
         let target_from_source = report.outcome.found().unwrap();
         let (shift, turn) = apart(target_from_source, expected, world_from_source);
         assert!(shift < 0.03 && turn < 0.005, "{shift} m, {turn} rad");
@@ -36,10 +36,10 @@ fn nothing_outside_three_sigmas_of_a_prior_is_returned() {
     for (x, y, theta) in [(3.0, 0.0, 0.0), (0.0, -4.0, 1.0), (0.0, 0.0, PI)] {
         let wrong = Se2::new(truth.x() + x, truth.y() + y, truth.theta() + theta);
         for (a, b, prior) in [(&target, &source, wrong), (&source, &target, wrong.inverse())] {
-            let report = match_maps(a, b, &believing(prior, 0.5, 0.1)).unwrap();
+            let report = match_maps(a, b, &believing(prior, 0.5, 0.1), &()).unwrap();
             assert!(report.outcome.refusal().is_some(), "{:?}", report.outcome);
             for hypothesis in &report.hypotheses {
-                let pose = hypothesis.target_from_source;
+                let pose = hypothesis.pose.target_from_source;
                 assert!((pose.translation() - prior.translation()).norm() <= 1.5);
                 assert!(wrap_angle(pose.theta() - prior.theta()).abs() <= 0.3);
             }
@@ -53,9 +53,9 @@ fn a_budget_ends_the_search_at_the_same_place_each_time() {
     let source = right_part(OFFICE, Se2::new(9.0, 1.0, -2.1));
     let within = |limit| {
         let params = MatchParams { work_limit: Some(limit), ..MatchParams::default() };
-        match_maps(&target, &source, &params).unwrap()
+        match_maps(&target, &source, &params, &()).unwrap()
     };
-    let free = match_maps(&target, &source, &MatchParams::default()).unwrap();
+    let free = match_maps(&target, &source, &MatchParams::default(), &()).unwrap();
     assert!(!free.exhausted);
     let full = within(free.work);
     assert_eq!(format!("{full:?}"), format!("{free:?}"));
@@ -67,7 +67,7 @@ fn a_budget_ends_the_search_at_the_same_place_each_time() {
 #[test]
 fn parameters_that_cannot_be_meant_are_errors() {
     let map = left_part(OFFICE, Se2::identity());
-    let fails = |params: MatchParams| match_maps(&map, &map, &params).unwrap_err();
+    let fails = |params: MatchParams| match_maps(&map, &map, &params, &()).unwrap_err();
     for accept in [0.0, 1.1, f64::NAN] {
         let error = fails(MatchParams { accept, ..MatchParams::default() });
         assert!(matches!(error, MatchError::InvalidParameter { name: "accept", .. }), "{error}");
@@ -83,8 +83,10 @@ fn parameters_that_cannot_be_meant_are_errors() {
 fn the_truth_scores_above_a_shifted_pose() {
     let params = MatchParams::default();
     let (target_pose, source_pose) = (Se2::new(2.0, 3.0, 0.35), Se2::new(9.0, 1.0, -2.1));
-    let target = PreparedMap::new(&left_part(OFFICE, target_pose), &params.thresholds);
-    let source = PreparedMap::new(&right_part(OFFICE, source_pose), &params.thresholds);
+    let target =
+        PreparedMap::new(&left_part(OFFICE, target_pose), &params.thresholds, &()).unwrap();
+    let source =
+        PreparedMap::new(&right_part(OFFICE, source_pose), &params.thresholds, &()).unwrap();
     let truth = target_pose.between(&source_pose);
     let score = |x: f64| {
         let moved_from_target = Se2::new(x, 0.0, 0.0);

@@ -4,6 +4,7 @@
 mod bent;
 mod bounds;
 mod metamorphic;
+mod progress;
 mod refusals;
 mod simulated;
 mod world;

@@ -92,6 +92,6 @@ fn a_map_lies_on_itself() {
 #[test]
 fn the_same_maps_give_the_same_report_to_the_last_bit() {
     let (target, source) = pair();
-    let report = || format!("{:?}", match_maps(&target, &source, &MatchParams::default()));
+    let report = || format!("{:?}", match_maps(&target, &source, &MatchParams::default(), &()));
     assert_eq!(report(), report());
 }

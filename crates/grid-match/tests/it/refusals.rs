@@ -59,9 +59,9 @@ fn a_symmetric_room_is_ambiguous_and_both_poses_are_named() {
         let target_from_source = world_from_world * world_from_source;
         assert!(among(&report.hypotheses, target_from_source, world_from_source));
     }
-    let total: f64 = report.hypotheses.iter().map(|hypothesis| hypothesis.probability).sum();
-    assert!(total <= 1.0 + 1e-9 && report.hypotheses[0].probability < 0.6);
-    let descends = report.hypotheses.is_sorted_by(|a, b| a.probability >= b.probability);
+    let total: f64 = report.hypotheses.iter().map(|hypothesis| hypothesis.pose.probability).sum();
+    assert!(total <= 1.0 + 1e-9 && report.hypotheses[0].pose.probability < 0.6);
+    let descends = report.hypotheses.is_sorted_by(|a, b| a.pose.probability >= b.pose.probability);
     assert!(descends, "{:?}", report.hypotheses);
 }
 
@@ -105,7 +105,7 @@ proptest! {
     #[test]
     fn noise_is_never_merged_and_never_panics(target in any_map(), source in any_map()) {
         let params = MatchParams { min_wall_m: 0.0, ..MatchParams::default() };
-        let report = match_maps(&target, &source, &params).unwrap();
+        let report = match_maps(&target, &source, &params, &()).unwrap();
         assert!(report.outcome.refusal().is_some(), "{:?}", report.outcome);
     }
 }

@@ -33,7 +33,7 @@ fn robots_of_one_floor_meet_within_a_cell() {
 fn robots_of_different_floors_do_not_meet() {
     let [a, b] = [explored(40_003), explored(40_004)];
     for (target, source) in [(&a.target.map, &b.source.map), (&b.target.map, &a.source.map)] {
-        let report = match_maps(target, source, &MatchParams::default()).unwrap();
+        let report = match_maps(target, source, &MatchParams::default(), &()).unwrap();
         assert!(report.outcome.refusal().is_some(), "{:?}", report.outcome);
     }
 }

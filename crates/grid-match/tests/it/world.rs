@@ -103,13 +103,13 @@ pub(crate) fn right_part(walls: &[Wall], world_from_map: Se2) -> OccupancyGrid {
 }
 
 pub(crate) fn matched(target: &OccupancyGrid, source: &OccupancyGrid) -> MatchReport {
-    match_maps(target, source, &MatchParams::default()).unwrap()
+    match_maps(target, source, &MatchParams::default(), &()).unwrap()
 }
 
 pub(crate) fn found(target: &OccupancyGrid, source: &OccupancyGrid) -> Se2 {
     let report = matched(target, source);
     assert!(report.outcome.refusal().is_none(), "{:?}", report.outcome);
-    report.hypotheses[0].target_from_source
+    report.hypotheses[0].pose.target_from_source
 }
 
 /// How far two poses put the middle of the building apart, metres, and by how much they turn it
@@ -131,7 +131,7 @@ pub(crate) fn among(
     world_from_source: Se2,
 ) -> bool {
     hypotheses.iter().any(|hypothesis| {
-        let pose = hypothesis.target_from_source;
+        let pose = hypothesis.pose.target_from_source;
         let (shift, turn) = apart(pose, target_from_source, world_from_source);
         shift < 0.2 && turn < 2.0_f64.to_radians()
     })

@@ -5,6 +5,8 @@
 
 mod align;
 mod files;
+#[cfg(unix)]
+mod interrupt;
 mod merge;
 mod pictures;
 mod untagged;

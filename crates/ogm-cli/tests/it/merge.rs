@@ -74,7 +74,7 @@ fn a_copy_merges_into_the_same_map() {
     let folder = tempdir().unwrap();
     let (said, _) =
         ends_with(0, folder.path(), "merge {F}/target.yaml {F}/target.yaml -o {T}/out.yaml");
-    assert!(said.contains("both files hold the same map") && said.contains("(identity)"), "{said}");
+    assert!(said.contains("copies of one map") && said.contains("(identity)"), "{said}");
     let target = read(&fixtures().join("target.yaml"));
     let merged = read(&folder.path().join("out.yaml"));
     let (strays, known) = strays(&target, &merged);

@@ -103,10 +103,7 @@ struct RadonJson {
 impl From<&RadonMatch> for RadonJson {
     fn from(found: &RadonMatch) -> Self {
         Self {
-            segments: found
-                .maps
-                .as_ref()
-                .map(|maps| maps.each_ref().map(|map| map.segments.len())),
+            segments: found.maps.as_ref().map(|maps| maps.each_ref().map(|map| map.segments.len())),
             compared: found.compared,
             hypotheses: found.hypotheses,
             candidates: found.candidates.len(),

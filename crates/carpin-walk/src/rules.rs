@@ -23,7 +23,7 @@ pub trait Rules {
     fn deviation(&self, so_far: &WalkState<'_>) -> [f64; 3];
 }
 
-/// A walk up to the sample that is about to be drawn or judged.
+/// A walk up to the sample that is about to be drawn or scored.
 #[derive(Debug, Clone, Copy)]
 pub struct WalkState<'a> {
     /// Samples generated before this one.

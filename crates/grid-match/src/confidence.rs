@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 
-use crate::evidence::NOT_COMPARABLE;
+use crate::log_odds::NOT_COMPARABLE;
 use crate::search::Fit;
 use crate::translation::same_place;
 

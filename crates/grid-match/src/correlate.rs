@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rustfft::num_complex::Complex32;
 use rustfft::{Fft, FftPlanner};
 
-use crate::channels::Channels;
+use crate::correlation_planes::CorrelationPlanes;
 
 /// One map transformed, to be correlated with many.
 pub(crate) struct Correlator {
@@ -30,7 +30,11 @@ pub(crate) struct Surface<'a> {
 impl Correlator {
     /// A correlator for `first` with maps of up to `width` × `height` coarse cells, which must
     /// overlap by at least `overlap` cells to either axis.
-    pub(crate) fn new(first: &Channels, [width, height]: [usize; 2], overlap: usize) -> Self {
+    pub(crate) fn new(
+        first: &CorrelationPlanes,
+        [width, height]: [usize; 2],
+        overlap: usize,
+    ) -> Self {
         let columns = fast_length((first.width + width).saturating_sub(overlap));
         let rows = fast_length((first.height + height).saturating_sub(overlap));
         let (columns, rows) =
@@ -64,7 +68,7 @@ impl Correlator {
     }
 
     /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ.
-    pub(crate) fn correlate(&mut self, second: &Channels) -> Surface<'_> {
+    pub(crate) fn correlate(&mut self, second: &CorrelationPlanes) -> Surface<'_> {
         self.transform(second);
         for (value, &first) in self.turned.iter_mut().zip(&self.spectrum) {
             *value = first * value.conj();
@@ -76,7 +80,7 @@ impl Correlator {
     }
 
     /// The transform of `map`, transposed, into `turned`.
-    fn transform(&mut self, map: &Channels) {
+    fn transform(&mut self, map: &CorrelationPlanes) {
         self.work.fill(Complex32::default());
         let rows = map.packed.chunks_exact(map.width);
         for (output, row) in self.work.chunks_exact_mut(self.columns).zip(rows) {
@@ -153,23 +157,23 @@ fn transpose(input: &[Complex32], output: &mut [Complex32], width: usize) {
 #[cfg(test)]
 mod tests {
     use super::{Correlator, transpose};
-    use crate::channels::Channels;
+    use crate::correlation_planes::CorrelationPlanes;
     use nalgebra::Vector2;
     use proptest::prelude::{Strategy, prop, prop_assert, proptest};
     use rustfft::num_complex::Complex32;
 
-    fn channels() -> impl Strategy<Value = Channels> {
+    fn planes() -> impl Strategy<Value = CorrelationPlanes> {
         let part = -1.0_f32..1.0;
         (1_usize..9, 1_usize..7, prop::collection::vec((part.clone(), part), 8 * 6)).prop_map(
             |(width, height, parts)| {
                 let numbers = parts.into_iter().map(|(re, im)| Complex32::new(re, im));
                 let packed = numbers.take(width * height).collect();
-                Channels { width, height, origin: Vector2::zeros(), packed }
+                CorrelationPlanes { width, height, origin: Vector2::zeros(), packed }
             },
         )
     }
 
-    fn at(map: &Channels, column: usize, row: usize) -> Complex32 {
+    fn at(map: &CorrelationPlanes, column: usize, row: usize) -> Complex32 {
         let inside = column < map.width && row < map.height;
         if inside { map.packed[row * map.width + column] } else { Complex32::default() }
     }
@@ -177,7 +181,7 @@ mod tests {
     proptest! {
         #[test]
         fn every_shift_scores_what_the_sum_over_its_cells_does(
-            first in channels(), second in channels(),
+            first in planes(), second in planes(),
         ) {
             let mut correlator = Correlator::new(&first, [second.width, second.height], 0);
             let surface = correlator.correlate(&second);

@@ -1,7 +1,5 @@
 //! What is known about a pose, in metres of wall.
 
-use crate::log_odds::log_odds;
-
 /// What a pose has for it and against it.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
@@ -64,13 +62,4 @@ impl Evidence {
         let compared = self.hit_m + self.near_miss_m + self.conflict_m;
         if compared > 0.0 { self.hit_m / compared } else { 0.0 }
     }
-
-    /// Log-odds that the pose is right against that no pose is; −12 for what cannot be compared.
-    #[must_use]
-    pub fn score(&self) -> f64 {
-        if self.is_comparable() { log_odds(self) } else { NOT_COMPARABLE }
-    }
 }
-
-/// Log-odds of a pose about which the maps say nothing.
-pub(crate) const NOT_COMPARABLE: f64 = -12.0;

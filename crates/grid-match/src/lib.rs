@@ -47,11 +47,13 @@
 //! one map alone. The order of the two maps, their origins and the number of threads do not matter.
 
 mod bounds;
-mod channels;
 mod confidence;
 mod correlate;
+mod correlation_planes;
 mod covariance;
+mod crop;
 mod error;
+mod evaluate;
 mod evidence;
 mod lattice;
 mod log_odds;
@@ -65,9 +67,9 @@ mod rotation;
 mod search;
 mod smooth;
 mod spectrum;
-mod tally;
 mod translation;
-mod weigh;
+mod wall_counts;
+mod wall_points;
 mod work;
 
 pub use error::MatchError;

@@ -1,16 +1,27 @@
 //! How much the evidence says that a pose is right.
 
-use crate::evidence::{Evidence, NOT_COMPARABLE};
+use crate::evidence::Evidence;
+
+/// Log-odds of a pose about which the maps say nothing.
+pub(crate) const NOT_COMPARABLE: f64 = -12.0;
 
 /// Most metres of compared wall of a pair whose counts are taken in full; of more, the share that
 /// would be as much. Larger maps than those of the fit are not surer without end.
 const FULL_WALL_M: f64 = 150.0;
 
+impl Evidence {
+    /// Log-odds that the pose is right against that no pose is; −12 for what cannot be compared.
+    #[must_use]
+    pub fn score(&self) -> f64 {
+        if self.is_comparable() { log_odds(self) } else { NOT_COMPARABLE }
+    }
+}
+
 /// Log-odds of a pose against none being right.
 ///
 /// A conditional logit over the poses that were found for simulated pairs of maps, fitted to which
 /// of them is right, if any, with the terms that raised the likelihood of pairs left out most.
-pub(crate) fn log_odds(evidence: &Evidence) -> f64 {
+fn log_odds(evidence: &Evidence) -> f64 {
     let Evidence { hit_m, near_miss_m, conflict_m, overlap, .. } = *evidence;
     let relaxed = &evidence.relaxed;
     let share = share_of(hit_m + near_miss_m + conflict_m);

@@ -10,6 +10,7 @@ use crate::MatchError;
 use crate::bounds::Bounds;
 use crate::confidence::{FLOOR, modes, probability};
 use crate::covariance::covariance;
+use crate::evaluate::evaluate;
 use crate::evidence::Evidence;
 use crate::lattice::floor_index;
 use crate::params::{Effort, MatchParams};
@@ -17,8 +18,7 @@ use crate::prepare::PreparedMap;
 use crate::refine::polish;
 use crate::report::{Hypothesis, MatchReport};
 use crate::search::{Fit, Search};
-use crate::tally::Reach;
-use crate::weigh::weigh;
+use crate::wall_counts::Reach;
 use crate::work::Work;
 
 /// Most hypotheses of a report.
@@ -42,7 +42,7 @@ pub fn match_maps(
 ) -> Result<MatchReport, MatchError> {
     params.check()?;
     let [to_target, to_source, to_end] =
-        [(0.0, 0.2), (0.2, 0.4), (0.4, 1.0)].map(|(from, to)| Stage::new(progress, from, to));
+        [(0.0, 0.1), (0.1, 0.2), (0.2, 1.0)].map(|(from, to)| Stage::new(progress, from, to));
     let target = PreparedMap::new(target, &params.thresholds, &to_target)?;
     let source = PreparedMap::new(source, &params.thresholds, &to_source)?;
     match_prepared(&target, &source, params, &to_end)
@@ -83,11 +83,14 @@ fn search(
     let efforts = [Effort::Fast, Effort::Standard, Effort::Thorough];
     let tiers: Vec<_> = efforts.into_iter().filter(|&effort| effort <= params.effort).collect();
     let searched = Stage::new(progress, 0.0, SEARCHED);
+    let costs: Vec<f64> = tiers.iter().map(|&effort| search.cost(effort)).collect();
+    let share =
+        |tiers_done: usize| costs[..tiers_done].iter().sum::<f64>() / costs.iter().sum::<f64>();
     for (index, &effort) in tiers.iter().enumerate() {
         if search.work.exhausted() {
             break;
         }
-        search.run(effort, &Stage::nth(&searched, index, tiers.len()))?;
+        search.run(effort, &Stage::new(&searched, share(index), share(index + 1)))?;
         found = modes(search.fits.clone(), second.centre);
         if !found.is_empty() && probability(&found, 0) >= params.accept {
             break;
@@ -122,7 +125,7 @@ pub fn score_pose(
     let target_local_from_source_local =
         target.map_from_local.inverse() * *target_from_source * source.map_from_local;
     let reach = Reach::at(target.resolution().max(source.resolution()));
-    Ok(weigh(target, source, &target_local_from_source_local, reach, usize::MAX))
+    Ok(evaluate(target, source, &target_local_from_source_local, reach, usize::MAX))
 }
 
 fn too_little(map: &PreparedMap, params: &MatchParams) -> Option<Refusal> {

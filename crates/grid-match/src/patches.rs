@@ -6,9 +6,10 @@ use nalgebra::Point2;
 use ogm_core::{Se2, wrap_angle};
 
 use crate::lattice::floor_index;
-use crate::prepare::{PreparedMap, WallPoint};
+use crate::prepare::PreparedMap;
 use crate::refine::follow;
-use crate::tally::{Reach, Tally};
+use crate::wall_counts::{Reach, WallCounts};
+use crate::wall_points::WallPoint;
 
 /// Side of a patch, metres: about a room, over which a map is hardly bent.
 const PATCH_M: f64 = 4.0;
@@ -21,13 +22,13 @@ const FREEDOM: (f64, f64) = (0.5, 0.1);
 
 /// Walls of `map` on `on`, each patch where it fits best near `on_from_map`, and the root mean
 /// square by which the patches moved, metres.
-pub(crate) fn relaxed_tally(
+pub(crate) fn relaxed_counts(
     map: &PreparedMap,
     on: &PreparedMap,
     on_from_map: &Se2,
     reach: Reach,
     most: usize,
-) -> (Tally, f64) {
+) -> (WallCounts, f64) {
     let used = &map.walls[..map.walls.len().min(most)];
     let length = map.wall_length() / used.len().max(1) as f64;
     let mut patches: BTreeMap<[usize; 2], Vec<WallPoint>> = BTreeMap::new();
@@ -35,7 +36,7 @@ pub(crate) fn relaxed_tally(
         let place = [wall.at.x, wall.at.y].map(|along| floor_index(along / PATCH_M));
         patches.entry(place).or_default().push(wall);
     }
-    let mut tally = Tally::default();
+    let mut counts = WallCounts::default();
     let (mut moved, mut count) = (0.0, 0.0);
     for walls in patches.values() {
         let centre = centroid(walls);
@@ -50,9 +51,9 @@ pub(crate) fn relaxed_tally(
             }
         }
         count += walls.len() as f64;
-        tally.add(walls, on, &patch_on_from_map, reach, length);
+        counts.add(walls, on, &patch_on_from_map, reach, length);
     }
-    (tally, (moved / f64::max(count, 1.0)).sqrt())
+    (counts, (moved / f64::max(count, 1.0)).sqrt())
 }
 
 fn centroid(walls: &[WallPoint]) -> Point2<f64> {

@@ -1,24 +1,20 @@
 //! What is computed of one map alone, whatever it is matched with.
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::{
-    Cancelled, CellClass, ClassThresholds, Grid, OccupancyGrid, Progress, Se2, l2_distance_sq,
-};
+use ogm_core::{Cancelled, ClassThresholds, Grid, OccupancyGrid, Progress, Se2, l2_distance_sq};
 
-use crate::lattice::{Lattice, floor_index};
+use crate::crop::{Crop, State};
+use crate::lattice::Lattice;
 use crate::smooth::smooth_rows_and_columns;
 use crate::spectrum::{Spectrum, hough_spectrum};
+use crate::wall_points::{WallPoint, wall_points};
 
 /// Distances are cut off here, metres: twice what the widest refinement still weighs.
 const FARTHEST_M: f64 = 2.0;
-/// Empty border around the known cells, metres, so that walls at their edge attract from outside.
-const BORDER_M: f64 = 0.8;
 /// Least metres of wall that a point stands for.
 const SPACING_M: f64 = 0.1;
 /// Most sampled cells that stand for the known area.
 const MOST_SAMPLES: usize = 6000;
-/// Most cells after coarsening: a square of 200 m a side at 0.05 m.
-const MOST_CELLS: usize = 1 << 24;
 
 /// What a matcher needs of one map: where its walls are, how far every place is from them, from
 /// which side they were seen. Make it once for a map that is matched several times.
@@ -43,22 +39,6 @@ pub struct PreparedMap {
     pub(crate) centre: Point2<f64>,
     pub(crate) occupied_cells: usize,
     pub(crate) spectrum: Spectrum,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-#[repr(u8)]
-pub(crate) enum State {
-    Unknown,
-    Free,
-    Occupied,
-}
-
-/// A point on a wall, local frame.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct WallPoint {
-    pub(crate) at: Point2<f64>,
-    /// Unit vector into free space; zero where both sides are free, or none.
-    pub(crate) normal: Vector2<f64>,
 }
 
 /// The centre of a known cell, local frame.
@@ -130,69 +110,6 @@ impl PreparedMap {
     }
 }
 
-/// The known part of a map with a border around.
-struct Crop {
-    state: Vec<State>,
-    lattice: Lattice,
-    map_from_local: Se2,
-}
-
-impl Crop {
-    fn of(map: &OccupancyGrid, thresholds: &ClassThresholds) -> Self {
-        let classes = map.cells().map(|&cell| match thresholds.classify(cell) {
-            CellClass::Occupied => State::Occupied,
-            CellClass::Free => State::Free,
-            CellClass::Undecided | CellClass::Unknown => State::Unknown,
-        });
-        let [left, bottom, width, height] = known_box(&classes);
-        let mut factor = 1;
-        while (width / factor) * (height / factor) > MOST_CELLS {
-            factor *= 2;
-        }
-        let resolution = map.frame().resolution() * factor as f64;
-        let border = floor_index(BORDER_M / resolution).min(64) + 1;
-        let lattice = Lattice {
-            width: width.div_ceil(factor) + 2 * border,
-            height: height.div_ceil(factor) + 2 * border,
-            resolution,
-        };
-        let mut state = vec![State::Unknown; lattice.width * lattice.height];
-        for row in 0..height {
-            let known = &classes.row(bottom + row)[left..left + width];
-            let output = &mut state[(row / factor + border) * lattice.width + border..];
-            for (column, &cell) in known.iter().enumerate() {
-                let kept = &mut output[column / factor];
-                *kept = cell.max(*kept);
-            }
-        }
-        let origin = map.frame().map_from_grid();
-        let fine = map.frame().resolution();
-        let inset = border as f64 * resolution;
-        let corner = Se2::new(left as f64 * fine - inset, bottom as f64 * fine - inset, 0.0);
-        Self { state, lattice, map_from_local: origin * corner }
-    }
-}
-
-/// Left, bottom, width and height of the known cells; one cell if there is none.
-fn known_box(classes: &Grid<State>) -> [usize; 4] {
-    let known = |cell: &State| *cell != State::Unknown;
-    let (mut left, mut right) = (usize::MAX, 0);
-    let (mut bottom, mut top) = (usize::MAX, 0);
-    for (row, cells) in classes.rows().enumerate() {
-        let Some(first) = cells.iter().position(known) else { continue };
-        let last = cells.iter().rposition(known).unwrap_or(first);
-        left = left.min(first);
-        right = right.max(last);
-        bottom = bottom.min(row);
-        top = row;
-    }
-    if bottom == usize::MAX {
-        [0, 0, 1, 1]
-    } else {
-        [left, bottom, right - left + 1, top - bottom + 1]
-    }
-}
-
 /// An occupied cell without an occupied neighbour is noise: nothing is said about it.
 fn drop_lone_occupied(state: &mut [State], lattice: &Lattice) {
     let width = lattice.width;
@@ -233,45 +150,6 @@ fn openness(state: &[State], lattice: &Lattice) -> Vec<f32> {
     let free = state.iter().map(|&cell| if cell == State::Free { 1.0 } else { 0.0 }).collect();
     let sigma = (0.08 / lattice.resolution).max(1.2);
     smooth_rows_and_columns(free, lattice.width, sigma)
-}
-
-/// One point for each square of `spacing` that holds wall: the mean of its occupied cells.
-fn wall_points(
-    state: &[State],
-    openness: &[f32],
-    lattice: &Lattice,
-    spacing: f64,
-) -> Vec<WallPoint> {
-    let columns = floor_index(lattice.width as f64 * lattice.resolution / spacing) + 1;
-    let rows = floor_index(lattice.height as f64 * lattice.resolution / spacing) + 1;
-    let mut sums = vec![(Vector2::zeros(), 0_u32); columns * rows];
-    for (at, _) in state.iter().enumerate().filter(|&(_, &cell)| cell == State::Occupied) {
-        let centre = lattice.centre(at);
-        let (column, row) = (floor_index(centre.x / spacing), floor_index(centre.y / spacing));
-        let (sum, cells) = &mut sums[row * columns + column];
-        *sum += centre.coords;
-        *cells += 1;
-    }
-    let mut points: Vec<(u64, WallPoint)> = (0_u64..)
-        .zip(sums)
-        .filter(|(_, (_, cells))| *cells > 0)
-        .map(|(index, (sum, cells))| {
-            let at = Point2::from(sum / f64::from(cells));
-            let cell = lattice.index(at);
-            let normal = cell.map_or_else(Vector2::zeros, |cell| lattice.direction(openness, cell));
-            (scatter(index), WallPoint { at, normal })
-        })
-        .collect();
-    points.sort_unstable_by_key(|&(order, _)| order);
-    points.into_iter().map(|(_, point)| point).collect()
-}
-
-/// The finaliser of SplitMix64: a bijection, so no two indices tie.
-fn scatter(index: u64) -> u64 {
-    let mut bits = index.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    bits ^ (bits >> 31)
 }
 
 /// Known cells on a square lattice, and the area that each stands for.

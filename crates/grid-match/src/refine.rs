@@ -3,8 +3,10 @@
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 use ogm_core::Se2;
 
+use crate::crop::State;
 use crate::lattice::Slope;
-use crate::prepare::{PreparedMap, State, WallPoint};
+use crate::prepare::PreparedMap;
+use crate::wall_points::WallPoint;
 
 /// Beyond so many scales a wall weighs less than a thousandth.
 const FAR_SCALES: f64 = 6.0;
@@ -13,9 +15,9 @@ const POLISH_SCALE_M: f64 = 0.15;
 /// Most steps of a polish.
 const POLISH_STEPS: usize = 12;
 /// A polish ends with a step of its centre below this, cells.
-const SETTLED_CELLS: f64 = 1e-3;
+const CONVERGED_CELLS: f64 = 1e-3;
 /// And a turn below this, radians.
-const SETTLED_RAD: f64 = 1e-6;
+const CONVERGED_RAD: f64 = 1e-6;
 /// Wall points of each map in a polish; more say the same.
 pub(crate) const POLISH_POINTS: usize = 20_000;
 
@@ -153,10 +155,10 @@ pub(crate) fn polish(
         let typical = (normal.residual / normal.weight.max(1e-9)).sqrt();
         let next = scale.min((2.0 * typical).max(0.4 * resolution));
         let step = (moved_from_first * normal.centre - normal.centre).norm();
-        let is_settled = step < SETTLED_CELLS * resolution
-            && moved_from_first.theta().abs() < SETTLED_RAD
+        let has_converged = step < CONVERGED_CELLS * resolution
+            && moved_from_first.theta().abs() < CONVERGED_RAD
             && next > 0.99 * scale;
-        if is_settled {
+        if has_converged {
             break;
         }
         scale = next;

@@ -3,15 +3,15 @@
 use ogm_core::{Cancelled, Progress, Se2, Stage, Steps};
 
 use crate::bounds::Bounds;
+use crate::evaluate::{evaluate, evaluate_rigid};
 use crate::evidence::Evidence;
 use crate::log_odds::rough_log_odds;
 use crate::params::Effort;
 use crate::prepare::PreparedMap;
 use crate::refine::{Points, Sides, refine};
 use crate::rotation;
-use crate::tally::Reach;
 use crate::translation::{Candidate, CoarsePair, distinct};
-use crate::weigh::{weigh, weigh_as_one};
+use crate::wall_counts::Reach;
 use crate::work::Work;
 
 /// Scales of the first refinement, metres at a coarse cell of 0.2 m.
@@ -38,6 +38,15 @@ struct Tier {
     rotations: Vec<f64>,
     candidates: usize,
     survivors: usize,
+}
+
+impl Tier {
+    /// About what correlating, refining and evaluating cost beside each other: a rotation costs as
+    /// much as two survivors or 25 candidates.
+    fn costs(&self) -> [f64; 3] {
+        let count = self.rotations.len().max(1);
+        [count as f64, 0.04 * self.candidates as f64, 0.5 * self.survivors as f64]
+    }
 }
 
 /// Two maps and what bounds their match.
@@ -70,10 +79,17 @@ impl<'a> Search<'a> {
         Self { first, second, coarse, bounds, suggested, work, fits: Vec::new() }
     }
 
+    /// About how much a tier costs beside the others.
+    pub(crate) fn cost(&self, effort: Effort) -> f64 {
+        self.tier(effort).costs().iter().sum()
+    }
+
     /// Runs one tier and adds what it finds to the fits.
     pub(crate) fn run(&mut self, effort: Effort, progress: &dyn Progress) -> Result<(), Cancelled> {
         let tier = self.tier(effort);
-        let [found, followed] = [0.6, 0.75];
+        let [correlate, refine, evaluate] = tier.costs();
+        let whole = correlate + refine + evaluate;
+        let (found, refined) = (correlate / whole, (correlate + refine) / whole);
         let mut candidates = self.coarse.candidates(
             &tier.rotations,
             tier.candidates,
@@ -85,9 +101,9 @@ impl<'a> Search<'a> {
             let first_from_second = bounds.first_from_second;
             candidates.push(Candidate { first_from_second, score: 0.0 });
         }
-        let followed_walls = Stage::new(progress, found, followed);
-        let promising = self.settle(candidates, tier.survivors, &followed_walls)?;
-        self.judge(&promising, &Stage::new(progress, followed, 1.0))
+        let rough = Stage::new(progress, found, refined);
+        let promising = self.refine_roughly(candidates, tier.survivors, &rough)?;
+        self.refine_and_evaluate(&promising, &Stage::new(progress, refined, 1.0))
     }
 
     fn tier(&self, effort: Effort) -> Tier {
@@ -113,7 +129,7 @@ impl<'a> Search<'a> {
     }
 
     /// Lets candidates follow the walls and keeps the `most` that then fit best.
-    fn settle(
+    fn refine_roughly(
         &mut self,
         candidates: Vec<Candidate>,
         most: usize,
@@ -124,7 +140,7 @@ impl<'a> Search<'a> {
         let scales = COARSE_SCALES.map(|scale| scale * ratio);
         let reach = self.reach();
         let points = Points { most: COARSE_POINTS, sides: Sides::Any };
-        let mut settled = Vec::with_capacity(candidates.len());
+        let mut refined = Vec::with_capacity(candidates.len());
         for candidate in candidates {
             if !self.work.spend_points(2 * COARSE_POINTS * (scales.len() + 1)) {
                 break;
@@ -132,35 +148,39 @@ impl<'a> Search<'a> {
             let (first, second) = (self.first, self.second);
             let start_first_from_second = candidate.first_from_second;
             let first_from_second = refine(first, second, start_first_from_second, &scales, points);
-            let evidence = weigh_as_one(first, second, &first_from_second, reach, COARSE_POINTS);
+            let evidence = evaluate_rigid(first, second, &first_from_second, reach, COARSE_POINTS);
             let score = rough_log_odds(&evidence);
-            settled.push(Candidate { first_from_second, score });
+            refined.push(Candidate { first_from_second, score });
             done.step()?;
         }
-        settled.sort_by(|a, b| b.score.total_cmp(&a.score));
-        Ok(distinct(settled, self.second.centre, SAME.0, SAME.1, most))
+        refined.sort_by(|a, b| b.score.total_cmp(&a.score));
+        Ok(distinct(refined, self.second.centre, SAME.0, SAME.1, most))
     }
 
     /// Refines and scores the promising poses in full.
-    fn judge(&mut self, promising: &[Candidate], progress: &dyn Progress) -> Result<(), Cancelled> {
+    fn refine_and_evaluate(
+        &mut self,
+        promising: &[Candidate],
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         let done = Steps::new(progress, promising.len());
         let scales = FINE_SCALES.map(|scale| scale.max(self.resolution()));
         let points =
             self.first.walls.len().min(FINE_POINTS) + self.second.walls.len().min(FINE_POINTS);
         let used = Points { most: FINE_POINTS, sides: Sides::NotOpposite };
         for candidate in promising {
-            done.step()?;
             if !self.work.spend_points(points * (scales.len() + 1)) {
                 break;
             }
             let (first, second) = (self.first, self.second);
             let start_first_from_second = candidate.first_from_second;
             let first_from_second = refine(first, second, start_first_from_second, &scales, used);
-            if self.bounds.is_some_and(|bounds| !bounds.contains(&first_from_second)) {
-                continue;
+            if self.bounds.is_none_or(|bounds| bounds.contains(&first_from_second)) {
+                let evidence =
+                    evaluate(first, second, &first_from_second, self.reach(), FINE_POINTS);
+                self.fits.push(Fit { first_from_second, evidence, score: evidence.score() });
             }
-            let evidence = weigh(first, second, &first_from_second, self.reach(), FINE_POINTS);
-            self.fits.push(Fit { first_from_second, evidence, score: evidence.score() });
+            done.step()?;
         }
         Ok(())
     }

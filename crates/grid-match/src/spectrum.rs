@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use crate::lattice::floor_index;
-use crate::prepare::WallPoint;
+use crate::wall_points::WallPoint;
 
 /// Angles of a spectrum over half a turn: a quarter of a degree.
 pub(crate) const ANGLES: usize = 720;
@@ -86,8 +86,8 @@ pub(crate) fn circular_correlation(target: &[f64], source: &[f64]) -> Vec<f64> {
 #[cfg(test)]
 mod tests {
     use super::{ANGLES, circular_correlation, hough_spectrum};
-    use crate::prepare::WallPoint;
     use crate::rotation::by_spectrum;
+    use crate::wall_points::WallPoint;
     use nalgebra::{Point2, Rotation2, Vector2};
     use ogm_core::wrap_angle;
     use proptest::prelude::{prop_assert, proptest};

@@ -4,8 +4,8 @@ use nalgebra::{Point2, Vector2};
 use ogm_core::{Cancelled, Progress, Se2, Steps, wrap_angle};
 
 use crate::bounds::Bounds;
-use crate::channels::{Channels, FreeShare, Side, turned_box};
 use crate::correlate::{Correlator, Surface};
+use crate::correlation_planes::{CorrelationPlanes, FreeShare, Side, turned_box};
 use crate::lattice::floor_index;
 use crate::prepare::PreparedMap;
 use crate::work::Work;
@@ -29,7 +29,7 @@ pub(crate) struct CoarsePair<'a> {
     second: &'a PreparedMap,
     /// Metres a coarse cell.
     pub(crate) cell: f64,
-    first_channels: Channels,
+    first_planes: CorrelationPlanes,
     second_free: FreeShare,
 }
 
@@ -37,9 +37,9 @@ impl<'a> CoarsePair<'a> {
     pub(crate) fn new(first: &PreparedMap, second: &'a PreparedMap) -> Self {
         let cell = coarse_cell(first, second);
         let first_free = FreeShare::of(first, cell);
-        let first_channels = Channels::turned(first, &first_free, 0.0, Side::First);
+        let first_planes = CorrelationPlanes::turned(first, &first_free, 0.0, Side::First);
         let second_free = FreeShare::of(second, cell);
-        Self { second, cell, first_channels, second_free }
+        Self { second, cell, first_planes, second_free }
     }
 
     /// The best `most` poses over `rotations`, best first, no two within a cell and a half and
@@ -59,14 +59,15 @@ impl<'a> CoarsePair<'a> {
             size = [size[0].max(floor_index(extent.x) + 5), size[1].max(floor_index(extent.y) + 5)];
         }
         let overlap = floor_index(LEAST_OVERLAP_M / self.cell);
-        let mut correlator = Correlator::new(&self.first_channels, size, overlap);
+        let mut correlator = Correlator::new(&self.first_planes, size, overlap);
         let done = Steps::new(progress, rotations.len());
         let mut found = Vec::new();
         for &theta in rotations {
             if !work.spend_transform(correlator.cells()) {
                 break;
             }
-            let turned = Channels::turned(self.second, &self.second_free, theta, Side::Second);
+            let turned =
+                CorrelationPlanes::turned(self.second, &self.second_free, theta, Side::Second);
             let surface = correlator.correlate(&turned);
             found.extend(self.peaks(&surface, &turned, theta, bounds));
             done.step()?;
@@ -78,7 +79,7 @@ impl<'a> CoarsePair<'a> {
     fn peaks(
         &self,
         surface: &Surface<'_>,
-        turned: &Channels,
+        turned: &CorrelationPlanes,
         theta: f64,
         bounds: Option<&Bounds>,
     ) -> Vec<Candidate> {
@@ -90,10 +91,10 @@ impl<'a> CoarsePair<'a> {
             .into_iter()
             .map(|(column, row, score)| {
                 let cells = Vector2::new(
-                    shift(column, self.first_channels.width, surface.columns),
-                    shift(row, self.first_channels.height, surface.rows),
+                    shift(column, self.first_planes.width, surface.columns),
+                    shift(row, self.first_planes.height, surface.rows),
                 );
-                let translation = cells * self.cell + self.first_channels.origin - turned.origin;
+                let translation = cells * self.cell + self.first_planes.origin - turned.origin;
                 let first_from_second = Se2::new(translation.x, translation.y, theta);
                 Candidate { first_from_second, score: f64::from(score) }
             })

@@ -47,22 +47,22 @@ pub(crate) fn coarsen_in_rows(
     let log_odds = LogOddsOfByte::new();
     let rounding = ByteOfLogOdds::new();
     let columns: Vec<usize> = (0..map.width()).map(|column| coarse_cell(column, ratio)).collect();
-    let mut tallies = vec![Tally::default(); width];
+    let mut means = vec![MeanLogOdds::default(); width];
     let done = Steps::new(progress, height);
     let mut fine_rows = map.cells().rows().enumerate().peekable();
     for (row, output) in coarse.cells_mut().chunks_exact_mut(width).enumerate() {
-        tallies.fill(Tally::default());
+        means.fill(MeanLogOdds::default());
         while let Some((_, fine)) = fine_rows.next_if(|&(fine, _)| coarse_cell(fine, ratio) <= row)
         {
             for (&cell, &column) in fine.iter().zip(&columns) {
                 if cell.is_known() {
-                    tallies[column].add(log_odds.of(cell), thresholds.is_occupied(cell));
+                    means[column].add(log_odds.of(cell), thresholds.is_occupied(cell));
                 }
             }
         }
         done.step()?;
-        for (cell, tally) in output.iter_mut().zip(&tallies) {
-            if let Some(mean) = tally.mean() {
+        for (cell, sum) in output.iter_mut().zip(&means) {
+            if let Some(mean) = sum.mean() {
                 *cell = rounding.round(mean);
             }
         }
@@ -83,13 +83,13 @@ fn coarse_cell(fine: usize, ratio: f64) -> usize {
 
 /// What the source cells of a coarse cell say: of the occupied ones alone once there is one.
 #[derive(Clone, Copy, Default)]
-struct Tally {
+struct MeanLogOdds {
     log_odds: f64,
     count: u32,
     occupied: bool,
 }
 
-impl Tally {
+impl MeanLogOdds {
     fn add(&mut self, log_odds: f64, occupied: bool) {
         if occupied && !self.occupied {
             *self = Self { occupied, ..Self::default() };

@@ -65,9 +65,13 @@ impl Fused {
                 _ => {
                     for (columns, said) in others {
                         let columns = columns.clone();
-                        tables.hear(said, &mut cells[columns.clone()], &mut overlaps[columns]);
+                        tables.accumulate(
+                            said,
+                            &mut cells[columns.clone()],
+                            &mut overlaps[columns],
+                        );
                     }
-                    tables.settle(rule, cells, conflicts, &mut overlaps)
+                    tables.resolve(rule, cells, conflicts, &mut overlaps)
                 }
             };
             self.compared += counts.compared;

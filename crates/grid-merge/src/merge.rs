@@ -13,8 +13,8 @@ use crate::mapping::{Layer, Source, Vacant};
 use crate::{FusionError, FusionParams, GapTreatment, Interpolation, Mapping};
 
 /// Shares of the work after which all maps are coarsened, and on the output's lattice.
-const COARSENED: f64 = 0.2;
-const RESAMPLED: f64 = 0.7;
+const COARSENED: f64 = 0.1;
+const RESAMPLED: f64 = 0.4;
 
 /// A map and where it lies.
 #[derive(Debug, Clone, Copy)]

@@ -54,7 +54,7 @@ impl Tables {
 
     /// Takes in one layer's part of a row: the first known value of a cell goes to `cells`, all of
     /// them to `overlaps` once there are two.
-    pub(crate) fn hear(
+    pub(crate) fn accumulate(
         &self,
         said: &[Occupancy],
         cells: &mut [Occupancy],
@@ -76,7 +76,7 @@ impl Tables {
     }
 
     /// Decides the cells of a row that were heard of twice, and forgets what was said.
-    pub(crate) fn settle(
+    pub(crate) fn resolve(
         &self,
         rule: FusionRule,
         cells: &mut [Occupancy],

@@ -3,7 +3,8 @@
 use nalgebra::{Point2, Vector2};
 use ogm_core::{Outcome, Refusal, Se2, wrap_angle};
 
-use crate::pairing::{Cloud, Matcher};
+use crate::cloud::Cloud;
+use crate::pairing::Matcher;
 use crate::step::{Centres, point_to_line, point_to_point};
 use crate::structure::{Shape, shapes, unobservable_direction};
 use crate::{Alignment, IcpError, IcpParams, Metric, Section, Termination, WallPoints};

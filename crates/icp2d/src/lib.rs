@@ -33,10 +33,12 @@
 
 mod align;
 mod buckets;
+mod cloud;
 mod convention;
 mod error;
 mod hierarchy;
 mod nearest;
+mod nearest_index;
 mod outcome;
 mod pairing;
 mod params;

@@ -1,29 +1,11 @@
 //! Which source point corresponds to which target point.
 
-use nalgebra::{Point2, Vector2, distance, distance_squared};
+use nalgebra::{distance, distance_squared};
 use ogm_core::Se2;
 
-use crate::nearest::NearestIndex;
+use crate::Pairing;
+use crate::cloud::Cloud;
 use crate::tracking::Tracker;
-use crate::{Pairing, WallPoint};
-
-/// The points of one map that take part.
-#[derive(Debug)]
-pub(crate) struct Cloud {
-    pub(crate) positions: Vec<Point2<f64>>,
-    free_sides: Vec<Option<Vector2<f64>>>,
-    pub(crate) nearest: NearestIndex,
-    spacing: f64,
-}
-
-impl Cloud {
-    pub(crate) fn new(points: impl Iterator<Item = WallPoint>, spacing: f64) -> Self {
-        let (positions, free_sides): (Vec<_>, Vec<_>) =
-            points.map(|point| (point.position, point.free_side)).unzip();
-        let nearest = NearestIndex::new(&positions, spacing);
-        Self { positions, free_sides, nearest, spacing }
-    }
-}
 
 /// A source point and a target point by index.
 #[derive(Debug, Clone, Copy)]

@@ -5,7 +5,8 @@ use std::f64::consts::{FRAC_PI_4, TAU};
 use nalgebra::{Point2, Vector2};
 
 use crate::WallPoints;
-use crate::nearest::{Nearest, NearestIndex};
+use crate::nearest::Nearest;
+use crate::nearest_index::NearestIndex;
 
 /// Free sides within 70 degrees agree, as they do for [`IcpParams::min_side_cosine`].
 ///

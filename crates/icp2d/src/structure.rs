@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix2, Point2, Vector2};
 
-use crate::pairing::{Cloud, Pair};
+use crate::cloud::Cloud;
+use crate::pairing::Pair;
 
 /// What the points around a point look like.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,8 +2,8 @@
 
 use nalgebra::{Point2, distance, distance_squared};
 
+use crate::cloud::Cloud;
 use crate::nearest::Nearest;
-use crate::pairing::Cloud;
 
 /// Remembers for each moving point its nearest fixed point and how far it may move before another
 /// could be nearer, after Greenspan and Godin, *A nearest neighbor method for efficient ICP*.
@@ -67,8 +67,8 @@ impl Tracker {
 mod tests {
     use super::Tracker;
     use crate::WallPoint;
+    use crate::cloud::Cloud;
     use crate::nearest::Nearest;
-    use crate::pairing::Cloud;
     use nalgebra::{Point2, Vector2};
     use proptest::prelude::{prop, prop_assert_eq, proptest};
 

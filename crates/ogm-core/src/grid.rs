@@ -27,8 +27,7 @@ impl<T> Grid<T> {
     /// # Errors
     /// Zero area, more than [`MAX_CELLS`], or a length that is not `width * height`.
     pub fn new(width: usize, height: usize, cells: Vec<T>) -> Result<Self, GridError> {
-        check_size(width, height)?;
-        if cells.len() != width * height {
+        if cells.len() != cell_count(width, height)? {
             return Err(GridError::WrongCellCount { width, height, cells: cells.len() });
         }
         Ok(Self { width, cells })
@@ -42,8 +41,7 @@ impl<T> Grid<T> {
     where
         T: Clone,
     {
-        check_size(width, height)?;
-        Ok(Self { width, cells: vec![value; width * height] })
+        Ok(Self { width, cells: vec![value; cell_count(width, height)?] })
     }
 
     /// Columns, at least 1.
@@ -121,12 +119,16 @@ impl<T> Grid<T> {
     }
 }
 
-fn check_size(width: usize, height: usize) -> Result<(), GridError> {
+/// The cells of a grid of `width` × `height`, for who reads them before there is a grid.
+///
+/// # Errors
+/// Zero area or more than [`MAX_CELLS`].
+pub fn cell_count(width: usize, height: usize) -> Result<usize, GridError> {
     if width == 0 || height == 0 {
         return Err(GridError::ZeroArea { width, height });
     }
     match width.checked_mul(height) {
-        Some(count) if count <= MAX_CELLS => Ok(()),
+        Some(count) if count <= MAX_CELLS => Ok(count),
         _ => Err(GridError::TooLarge { width, height, limit: MAX_CELLS }),
     }
 }

@@ -45,7 +45,7 @@ pub use angle::{KFoldMean, mean_k_fold, undirected_difference, wrap_angle, wrap_
 pub use distance::{l1_distance, l1_spread};
 pub use error::GridError;
 pub use frame::GridFrame;
-pub use grid::{CellIndex, Grid, MAX_CELLS};
+pub use grid::{CellIndex, Grid, MAX_CELLS, cell_count};
 pub use length::Length;
 pub use nearest::{NearestCells, l2_distance_sq};
 pub use occupancy::{

@@ -2,6 +2,7 @@
 
 use ogm_core::{Grid, Occupancy, OccupancyGrid};
 
+use crate::decode::decode;
 use crate::raster::{Pixel, Raster};
 use crate::{MapHeader, MapImageError, MapMode, MapWarning};
 
@@ -39,7 +40,7 @@ impl MapHeader {
         image: &[u8],
         options: &ReadOptions,
     ) -> Result<(OccupancyGrid, Vec<MapWarning>), MapImageError> {
-        let raster = Raster::decode(image)?;
+        let raster = decode(image)?;
         let mut warnings = Vec::new();
         let mut cells = Vec::with_capacity(raster.width * raster.height);
         match self.mode {

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use ogm_core::GridError;
 
+use crate::tag_columns::TAG_LOG_HEADER;
+
 /// A file that cannot be read or written, or does not hold what it should.
 ///
 /// The text is complete: the cause is part of it and is not repeated as an error source.
@@ -177,7 +179,7 @@ pub enum TagLogError {
         line: usize,
     },
     /// The first line is not the header.
-    #[error("line 1 is \"{found}\"; it must be \"{}\"", crate::TAG_LOG_HEADER)]
+    #[error("line 1 is \"{found}\"; it must be \"{}\"", TAG_LOG_HEADER)]
     Header {
         /// What is there.
         found: String,
@@ -204,4 +206,10 @@ pub enum TagLogError {
         /// What would be accepted.
         expected: &'static str,
     },
+}
+
+/// The first bytes, escaped for an error message.
+pub(crate) fn excerpt(bytes: &[u8]) -> String {
+    const LENGTH: usize = 16;
+    bytes.iter().take(LENGTH).copied().collect::<Vec<_>>().escape_ascii().to_string()
 }

@@ -26,6 +26,7 @@
 #![expect(clippy::disallowed_methods, reason = "files are what this crate is for")]
 
 mod classify;
+mod decode;
 mod disk;
 mod error;
 mod header;
@@ -33,6 +34,7 @@ mod map;
 mod pgm;
 mod png;
 mod raster;
+mod tag_columns;
 mod tags;
 mod warning;
 mod write;
@@ -42,7 +44,8 @@ pub use disk::write_file;
 pub use error::{IoError, MapImageError, TagLogError, YamlError};
 pub use header::{MapHeader, MapMode};
 pub use map::{LoadedMap, read_map, read_map_with};
-pub use tags::{TAG_LOG_HEADER, parse_tags, read_tags, write_tags};
+pub use tag_columns::TAG_LOG_HEADER;
+pub use tags::{parse_tags, read_tags, write_tags};
 pub use warning::MapWarning;
 pub use write::{CellEncoding, WriteOptions, write_map};
 

@@ -1,7 +1,10 @@
 //! Grey portable maps: plain (P2) and raw (P5), after the PGM format description of Netpbm.
 
+use ogm_core::cell_count;
+
 use crate::MapImageError;
-use crate::raster::{Channels, Raster, Samples, cell_count, excerpt};
+use crate::error::excerpt;
+use crate::raster::{Channels, Raster, Samples};
 
 /// Decodes P2 or P5, 8 or 16 bit; nothing larger than the file is allocated.
 pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, MapImageError> {

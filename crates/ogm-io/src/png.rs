@@ -4,9 +4,10 @@ use std::io::Cursor;
 
 use image::codecs::png::{PngDecoder, PngEncoder};
 use image::{ColorType, ExtendedColorType, ImageDecoder, ImageEncoder, ImageError, Limits};
+use ogm_core::cell_count;
 
 use crate::MapImageError;
-use crate::raster::{Channels, Raster, Samples, cell_count};
+use crate::raster::{Channels, Raster, Samples};
 
 /// For metadata and one row; the pixels are bounded by [`cell_count`] and by [`plausible`].
 const SCRATCH_BYTES: u64 = 64 << 20;

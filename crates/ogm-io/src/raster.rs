@@ -1,9 +1,5 @@
 //! A decoded image: grey or colour, with or without alpha, top row first.
 
-use ogm_core::{GridError, MAX_CELLS};
-
-use crate::{MapImageError, pgm, png};
-
 /// Pixels top row first, channels interleaved: grey, grey + alpha, RGB or RGBA.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Raster {
@@ -59,15 +55,6 @@ impl Channels {
 }
 
 impl Raster {
-    /// Decodes by content; the extension of a file says nothing.
-    pub(crate) fn decode(bytes: &[u8]) -> Result<Self, MapImageError> {
-        match bytes {
-            [0x89, b'P', b'N', b'G', ..] => png::decode(bytes),
-            [b'P', b'2' | b'5', ..] => pgm::decode(bytes),
-            _ => Err(MapImageError::Format { start: excerpt(bytes) }),
-        }
-    }
-
     /// The sum over the colour channels that means white.
     pub(crate) fn white(&self) -> u32 {
         self.channels.colours() * u32::from(self.max)
@@ -97,22 +84,4 @@ impl Raster {
             }
         }
     }
-}
-
-/// Width × height, if a grid may have that many cells.
-pub(crate) fn cell_count(width: usize, height: usize) -> Result<usize, GridError> {
-    if width == 0 || height == 0 {
-        return Err(GridError::ZeroArea { width, height });
-    }
-    width.checked_mul(height).filter(|&cells| cells <= MAX_CELLS).ok_or(GridError::TooLarge {
-        width,
-        height,
-        limit: MAX_CELLS,
-    })
-}
-
-/// The first bytes, escaped for an error message.
-pub(crate) fn excerpt(bytes: &[u8]) -> String {
-    const LENGTH: usize = 16;
-    bytes.iter().take(LENGTH).copied().collect::<Vec<_>>().escape_ascii().to_string()
 }

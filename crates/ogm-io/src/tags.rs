@@ -7,10 +7,7 @@ use nalgebra::Point2;
 use ogm_core::TagReading;
 
 use crate::disk::{Temporary, read_at_most};
-use crate::{IoError, TagLogError};
-
-/// The first line of a tag log: identifier, robot position in its map frame, range, in metres.
-pub const TAG_LOG_HEADER: &str = "tag_id,robot_x_m,robot_y_m,range_m";
+use crate::{IoError, TAG_LOG_HEADER, TagLogError};
 
 /// Some five million readings.
 const MAX_BYTES: u64 = 256 << 20;

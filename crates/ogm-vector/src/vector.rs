@@ -70,20 +70,20 @@ fn estimate(segments: &[Segment], params: &Params) -> Option<OgmVector> {
     let directions: Vec<_> = usable.map(|(index, s)| (index, s.direction)).collect();
     let mut groups = group(&directions, params);
 
-    let weigh = |segment: usize| weight(&segments[segment], params.weights);
+    let weight_of = |segment: usize| weight(&segments[segment], params.weights);
     let weights_fell_back = groups.iter().any(|group| {
-        let total: f64 = group.members.iter().map(|m| weigh(m.segment)).sum();
+        let total: f64 = group.members.iter().map(|m| weight_of(m.segment)).sum();
         !group.members.is_empty() && total <= 0.0
     });
-    let weigh = |segment: usize| {
-        if weights_fell_back { segments[segment].length() } else { weigh(segment) }
+    let weight_of = |segment: usize| {
+        if weights_fell_back { segments[segment].length() } else { weight_of(segment) }
     };
     for group in &mut groups {
-        let weighted = group.members.iter().map(|m| (m.direction, weigh(m.segment)));
+        let weighted = group.members.iter().map(|m| (m.direction, weight_of(m.segment)));
         group.direction = weighted_mean(weighted);
     }
 
-    let weighted = directions.iter().map(|&(segment, d)| (d, weigh(segment)));
+    let weighted = directions.iter().map(|&(segment, d)| (d, weight_of(segment)));
     let four_fold = mean_k_fold(weighted, 4);
     let direction = match params.estimator {
         Estimator::FourFold => four_fold?.direction,

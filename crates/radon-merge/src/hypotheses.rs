@@ -1,17 +1,14 @@
-//! Many poses from pairs of segments, each judged by how walls meet, and the best of them.
+//! Many poses from pairs of segments, each scored by how walls meet, and the best of them.
 
 use nalgebra::Point2;
-use ogm_core::{
-    Cancelled, CellIndex, ClassThresholds, Grid, OccupancyGrid, Progress, Se2, Steps, wrap_angle,
-    wrap_period,
-};
+use ogm_core::{Cancelled, Progress, Se2, Steps, wrap_angle, wrap_period};
 use std::f64::consts::PI;
 
 use crate::approximate::{Line, PoseRule, pose_between};
 use crate::correlation::{dot, histogram_correlations};
 use crate::error::{RadonError, require};
 use crate::parallel::map_in_order;
-use crate::verify::WallField;
+use crate::pose_scorer::PoseScorer;
 use crate::{DistinctiveParams, RotationCorrelation, WallSegment};
 
 /// How poses are proposed.
@@ -19,11 +16,11 @@ use crate::{DistinctiveParams, RotationCorrelation, WallSegment};
 pub struct HypothesisParams {
     /// Least correlation of two segments, in all four senses; the paper wants "close to one".
     pub min_correlation: f64,
-    /// Most poses to judge.
+    /// Most poses to scorer.
     pub max_hypotheses: usize,
     /// Walls that are this near to one of the other map meet it, cells.
     pub reach: f64,
-    /// Most walls of a map that a pose is judged by.
+    /// Most walls of a map that a pose is scored by.
     pub samples: usize,
     /// Most distinct poses that go on to the translation.
     pub max_candidates: usize,
@@ -67,19 +64,19 @@ pub struct Hypothesis {
     /// Share of sampled walls that meet a wall of the other map, less those that fall on its free
     /// space; both directions. 1 is full agreement.
     pub score: f64,
-    /// How many hypotheses were judged before.
+    /// How many hypotheses were scored before.
     pub order: usize,
 }
 
-/// All that were judged.
+/// All that were scored.
 #[derive(Debug)]
 pub(crate) struct Proposals {
-    /// The better ones, in the order in which they were judged.
+    /// The better ones, in the order in which they were scored.
     pub(crate) promising: Vec<Hypothesis>,
     /// Pairs of segments that were compared.
     pub(crate) compared: usize,
-    /// Poses that were judged.
-    pub(crate) judged: usize,
+    /// Poses that were scored.
+    pub(crate) scored: usize,
 }
 
 /// Poses below this score are counted and forgotten.
@@ -89,11 +86,11 @@ const PROMISING: f64 = 0.1;
 const BLOCK: usize = 32;
 
 /// Compares every segment of the target with every one of the source, until the budget is spent,
-/// and judges the pose of each pair that is alike.
+/// and scores the pose of each pair that is alike.
 pub(crate) fn propose(
     segments: [&[WallSegment]; 2],
     rotation: &Rotations,
-    judge: &Judge,
+    scorer: &PoseScorer,
     params: &HypothesisParams,
     distinctive: &DistinctiveParams,
     progress: &dyn Progress,
@@ -103,13 +100,13 @@ pub(crate) fn propose(
         shapes.collect::<Vec<Option<Shape<'_>>>>()
     });
     let done = Steps::new(progress, target.len());
-    let mut all = Proposals { promising: Vec::new(), compared: 0, judged: 0 };
+    let mut all = Proposals { promising: Vec::new(), compared: 0, scored: 0 };
     for (block, targets) in target.chunks(BLOCK).enumerate() {
-        if all.judged >= params.max_hypotheses {
+        if all.scored >= params.max_hypotheses {
             break;
         }
-        let judged = map_in_order(targets, |offset, target| -> Result<_, Cancelled> {
-            let mut judged = Vec::new();
+        let scored = map_in_order(targets, |offset, target| -> Result<_, Cancelled> {
+            let mut scored = Vec::new();
             for (source_segment, source) in source.iter().enumerate() {
                 let (Some(target), Some(source)) = (target, source) else { continue };
                 if !target.is_like(source, params.min_correlation, distinctive) {
@@ -121,23 +118,23 @@ pub(crate) fn propose(
                 let turned = Se2::new(0.0, 0.0, theta);
                 let translation = target.line.mean - turned * source.line.mean;
                 let turned_target_from_source = Se2::new(translation.x, translation.y, theta);
-                judged.push(Hypothesis {
+                scored.push(Hypothesis {
                     target_segment: block * BLOCK + offset,
                     source_segment,
                     approximate_target_from_source,
                     turned_target_from_source,
-                    score: judge.score(&turned_target_from_source),
+                    score: scorer.score(&turned_target_from_source),
                     order: 0,
                 });
             }
             done.step()?;
-            Ok(judged)
+            Ok(scored)
         });
         all.compared += targets.len() * source.len();
-        for judged in judged {
-            for mut hypothesis in judged? {
-                hypothesis.order = all.judged;
-                all.judged += 1;
+        for scored in scored {
+            for mut hypothesis in scored? {
+                hypothesis.order = all.scored;
+                all.scored += 1;
                 if hypothesis.score > PROMISING {
                     all.promising.push(hypothesis);
                 }
@@ -208,84 +205,6 @@ impl Rotations {
         // The lookup is for the nearest step, not for `rotation` itself.
         let from_step = wrap_period(rotation - index as f64 * self.step, PI);
         wrap_angle(rotation - from_step + self.corrections.get(index).copied().unwrap_or(0.0))
-    }
-}
-
-/// Judges a pose by how sampled walls of each map fall on the other.
-pub(crate) struct Judge {
-    target: Field,
-    source: Field,
-}
-
-struct Field {
-    grid_from_map: Se2,
-    resolution: f64,
-    /// 1 where a wall is near, −1 on free space away from walls, 0 where nothing is known.
-    votes: Grid<i8>,
-    /// Walls of the map.
-    samples: Vec<Point2<f64>>,
-}
-
-impl Judge {
-    pub(crate) fn new(
-        target: &WallField<'_>,
-        source: &WallField<'_>,
-        thresholds: &ClassThresholds,
-        params: &HypothesisParams,
-    ) -> Self {
-        let field = |walls: &WallField<'_>| Field::new(walls, thresholds, params);
-        Self { target: field(target), source: field(source) }
-    }
-
-    /// See [`Hypothesis::score`].
-    pub(crate) fn score(&self, target_from_source: &Se2) -> f64 {
-        let votes = self.target.votes_on(&self.source.samples, target_from_source)
-            + self.source.votes_on(&self.target.samples, &target_from_source.inverse());
-        f64::from(votes) / (self.source.samples.len() + self.target.samples.len()).max(1) as f64
-    }
-}
-
-impl Field {
-    fn new(walls: &WallField<'_>, thresholds: &ClassThresholds, params: &HypothesisParams) -> Self {
-        let map: &OccupancyGrid = walls.map;
-        let reach_sq = params.reach * params.reach;
-        let mut votes = walls.distance_sq.map(|&d| i8::from(f64::from(d) <= reach_sq));
-        for (vote, &cell) in votes.cells_mut().iter_mut().zip(map.cells().cells()) {
-            if *vote == 0 && thresholds.is_free(cell) {
-                *vote = -1;
-            }
-        }
-        let every = walls.walls.len().div_ceil(params.samples).max(1);
-        Self {
-            grid_from_map: map.frame().map_from_grid().inverse(),
-            resolution: map.frame().resolution(),
-            votes,
-            samples: walls.walls.iter().step_by(every).copied().collect(),
-        }
-    }
-
-    fn votes_on(&self, samples: &[Point2<f64>], this_from_other: &Se2) -> i32 {
-        let grid_from_other = self.grid_from_map * *this_from_other;
-        let (sin, cos) = grid_from_other.theta().sin_cos();
-        let scale = 1.0 / self.resolution;
-        let votes = samples.iter().map(|point| {
-            let x = (cos * point.x - sin * point.y + grid_from_other.x()) * scale;
-            let y = (sin * point.x + cos * point.y + grid_from_other.y()) * scale;
-            if !(x >= 0.0 && y >= 0.0) {
-                return 0;
-            }
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "not negative; what is too large lies outside"
-            )]
-            let cell = CellIndex { column: x as usize, row: y as usize };
-            if cell.row >= self.votes.height() {
-                return 0;
-            }
-            self.votes.get(cell).map_or(0, |&vote| i32::from(vote))
-        });
-        votes.sum()
     }
 }
 

@@ -42,6 +42,7 @@ mod error;
 mod hypotheses;
 mod parallel;
 mod params;
+mod pose_scorer;
 mod radon;
 mod rotation;
 mod search;

@@ -3,14 +3,15 @@
 use ogm_core::{Cancelled, Grid, OccupancyGrid, Outcome, Progress, Refusal, Se2, Stage, Steps};
 
 use crate::approximate::box_centre;
-use crate::hypotheses::{Apart, Judge, Rotations, distinct, propose};
+use crate::hypotheses::{Apart, Rotations, distinct, propose};
 use crate::parallel::map_in_order;
+use crate::pose_scorer::{PoseScorer, Sampling};
 use crate::similarity::check_resolutions;
 use crate::verify::{WallField, verify_prepared};
 use crate::{
-    Hypothesis, RadonError, RadonImage, RadonParams, RotationCorrelation, TranslationWindow,
-    Verification, VerificationParams, WallSegment, detect_edges, distinctive_segments, radon,
-    smooth_edges, tune_translation,
+    Hypothesis, HypothesisParams, RadonError, RadonImage, RadonParams, RotationCorrelation,
+    TranslationWindow, Verification, VerificationParams, WallSegment, detect_edges,
+    distinctive_segments, radon, smooth_edges, tune_translation,
 };
 
 /// What was found, and what every block saw on the way.
@@ -21,7 +22,7 @@ pub struct RadonMatch {
     pub maps: Option<[MapStages; 2]>,
     /// Pairs of segments that were compared.
     pub compared: usize,
-    /// Poses that were judged.
+    /// Poses that were scored.
     pub hypotheses: usize,
     /// The best distinct poses, tuned and verified, the best hypothesis first.
     pub candidates: Vec<Candidate>,
@@ -72,16 +73,16 @@ const MAX_WINDOWS: usize = 4;
 
 /// Shares of the work after which the walls of both maps are found, and the blocks of the target
 /// and then of the source are through.
-const PREPARED: [f64; 3] = [0.05, 0.15, 0.25];
+const PREPARED: [f64; 3] = [0.02, 0.08, 0.15];
 
 /// Share of the work after which all poses are proposed.
-const PROPOSED: f64 = 0.6;
+const PROPOSED: f64 = 0.9;
 
 /// Finds the transform that maps points of `source` into the frame of `target` by segments of
 /// walls that look alike, tuned by the Radon transform and by the similarity of the maps, and
 /// verified (Saeedi et al., Fig. 1).
 ///
-/// Every hypothesis of a pair of segments is judged by its walls, the best go through the later
+/// Every hypothesis of a pair of segments is scored by its walls, the best go through the later
 /// blocks, and those that pass the verification are left. If they do not agree, each is as likely
 /// as the others and the answer is [`Refusal::SeveralPoses`]; a map without distinctive segments is
 /// refused, too. Equal input and seed give equal bits on any number of threads.
@@ -126,10 +127,12 @@ fn search(
     let maps = [target_stages, stages(&source_walls, 1, params)?];
     progress.go_on(PREPARED[2])?;
     let correlation = RotationCorrelation::between(&maps[0].radon, &maps[1].radon)?;
+    let HypothesisParams { reach, samples, .. } = params.hypotheses;
+    let sampling = Sampling { reach, samples };
     let proposals = propose(
         [&maps[0].segments, &maps[1].segments],
         &Rotations::new(&correlation, params.rotation.window),
-        &Judge::new(&target_walls, &source_walls, thresholds, &params.hypotheses),
+        &PoseScorer::new(&target_walls, &source_walls, thresholds, &sampling),
         &params.hypotheses,
         &params.distinctive,
         &Stage::new(progress, PREPARED[2], PROPOSED),
@@ -149,8 +152,8 @@ fn search(
     let candidates = map_in_order(&hypotheses, |_, &(hypothesis, support)| {
         let window = tune(target, source, &hypothesis, params, progress)?;
         let verification = verify_prepared(&target_walls, &source_walls, &window);
-        let settled = !window.is_at_rim();
-        let verified = settled && verification.is_accepted(&params.verification);
+        let inside = !window.is_at_rim();
+        let verified = inside && verification.is_accepted(&params.verification);
         tuned.step()?;
         Ok(Candidate { hypothesis, support, window, verification, verified })
     });
@@ -176,7 +179,7 @@ fn search(
     Ok(RadonMatch {
         maps: Some(maps),
         compared: proposals.compared,
-        hypotheses: proposals.judged,
+        hypotheses: proposals.scored,
         candidates,
         accepted: choice.ok(),
         outcome,

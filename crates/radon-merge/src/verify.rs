@@ -1,4 +1,4 @@
-//! Whether a transform is right, judged by cells, walls and entropy.
+//! Whether a transform is right, scored by cells, walls and entropy.
 
 use nalgebra::Point2;
 use ogm_core::Refusal;
@@ -99,7 +99,7 @@ impl WallShare {
     }
 }
 
-/// Judges the tuned transform of `window` (Saeedi et al., section II.I, with the shares of walls
+/// Scores the tuned transform of `window` (Saeedi et al., section II.I, with the shares of walls
 /// added).
 ///
 /// `Refused` if one of the maps has no occupied cell.

@@ -3,8 +3,9 @@
 use nalgebra::{Matrix2, Point2, Rotation2, SymmetricEigen, Vector2};
 use rustfft::num_complex::Complex32;
 
+use crate::crop::State;
 use crate::lattice::floor_index;
-use crate::prepare::{PreparedMap, State};
+use crate::prepare::PreparedMap;
 use crate::smooth::smooth_rows_and_columns;
 
 /// What wall on wall, wall on free space and free space on free space count.
@@ -23,7 +24,7 @@ pub(crate) const WEIGHTS: Weights = Weights { walls: 1.0, conflict: 0.6, free: 0
 
 /// A map turned by some angle, as one complex number a coarse cell.
 #[derive(Debug, Clone)]
-pub(crate) struct Channels {
+pub(crate) struct CorrelationPlanes {
     pub(crate) width: usize,
     pub(crate) height: usize,
     /// Turned point of the lower-left corner of cell (0, 0).
@@ -89,7 +90,7 @@ impl FreeShare {
     }
 }
 
-impl Channels {
+impl CorrelationPlanes {
     /// `map` turned by `theta` on cells of `free.cell` metres.
     pub(crate) fn turned(map: &PreparedMap, free: &FreeShare, theta: f64, side: Side) -> Self {
         let cell = free.cell;

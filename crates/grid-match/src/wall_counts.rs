@@ -3,7 +3,9 @@
 use nalgebra::{Matrix2, Vector2};
 use ogm_core::Se2;
 
-use crate::prepare::{PreparedMap, State, WallPoint};
+use crate::crop::State;
+use crate::prepare::PreparedMap;
+use crate::wall_points::WallPoint;
 
 /// Distances that divide a hit from a near miss and that from a conflict, metres.
 #[derive(Debug, Clone, Copy)]
@@ -22,7 +24,7 @@ impl Reach {
 
 /// Metres of wall of one map by what the other says there.
 #[derive(Default)]
-pub(crate) struct Tally {
+pub(crate) struct WallCounts {
     pub(crate) hit: f64,
     pub(crate) near_miss: f64,
     pub(crate) conflict: f64,
@@ -32,7 +34,7 @@ pub(crate) struct Tally {
     pub(crate) spread: Matrix2<f64>,
 }
 
-impl Tally {
+impl WallCounts {
     pub(crate) fn of(
         map: &PreparedMap,
         on: &PreparedMap,
@@ -40,11 +42,11 @@ impl Tally {
         reach: Reach,
         most: usize,
     ) -> Self {
-        let mut tally = Self::default();
+        let mut counts = Self::default();
         let used = &map.walls[..map.walls.len().min(most)];
         let length = map.wall_length() / used.len().max(1) as f64;
-        tally.add(used, on, on_from_map, reach, length);
-        tally
+        counts.add(used, on, on_from_map, reach, length);
+        counts
     }
 
     /// Adds `walls`, each of `length` metres.

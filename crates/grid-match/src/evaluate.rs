@@ -3,24 +3,25 @@
 use nalgebra::Rotation2;
 use ogm_core::Se2;
 
+use crate::crop::State;
 use crate::evidence::{Evidence, Relaxed};
-use crate::patches::relaxed_tally;
-use crate::prepare::{PreparedMap, State};
-use crate::tally::{Reach, Tally};
+use crate::patches::relaxed_counts;
+use crate::prepare::PreparedMap;
+use crate::wall_counts::{Reach, WallCounts};
 
 /// The evidence on at most `most` wall points of each map.
-pub(crate) fn weigh(
+pub(crate) fn evaluate(
     first: &PreparedMap,
     second: &PreparedMap,
     first_from_second: &Se2,
     reach: Reach,
     most: usize,
 ) -> Evidence {
-    let mut evidence = weigh_as_one(first, second, first_from_second, reach, most);
+    let mut evidence = evaluate_rigid(first, second, first_from_second, reach, most);
     if evidence.is_comparable() {
         let second_from_first = first_from_second.inverse();
-        let (forth, one) = relaxed_tally(second, first, first_from_second, reach, most);
-        let (back, other) = relaxed_tally(first, second, &second_from_first, reach, most);
+        let (forth, one) = relaxed_counts(second, first, first_from_second, reach, most);
+        let (back, other) = relaxed_counts(first, second, &second_from_first, reach, most);
         evidence.relaxed = Relaxed {
             hit_m: 0.5 * (forth.hit + back.hit),
             near_miss_m: 0.5 * (forth.near_miss + back.near_miss),
@@ -32,15 +33,15 @@ pub(crate) fn weigh(
 }
 
 /// The evidence of each map as one piece, without what it would be if it gave way.
-pub(crate) fn weigh_as_one(
+pub(crate) fn evaluate_rigid(
     first: &PreparedMap,
     second: &PreparedMap,
     first_from_second: &Se2,
     reach: Reach,
     most: usize,
 ) -> Evidence {
-    let forth = Tally::of(second, first, first_from_second, reach, most);
-    let back = Tally::of(first, second, &first_from_second.inverse(), reach, most);
+    let forth = WallCounts::of(second, first, first_from_second, reach, most);
+    let back = WallCounts::of(first, second, &first_from_second.inverse(), reach, most);
     let [mut free, mut known, mut near] = [0_u32, 0, 0];
     for sample in &second.samples {
         let Some(cell) = first.lattice.index(*first_from_second * sample.at) else { continue };
@@ -50,18 +51,18 @@ pub(crate) fn weigh_as_one(
         free += u32::from(first.state[cell] == State::Free && sample.free);
     }
     let smaller = first.known_area().min(second.known_area());
-    // The normals of the second tally are in the frame of the second map.
+    // The normals of the second counts are in the frame of the second map.
     let turn = Rotation2::new(first_from_second.theta()).into_inner();
     let spread = (forth.spread + turn * back.spread * turn.transpose()) * 0.5;
-    let mean = |value: fn(&Tally) -> f64| 0.5 * (value(&forth) + value(&back));
+    let mean = |value: fn(&WallCounts) -> f64| 0.5 * (value(&forth) + value(&back));
     Evidence {
-        hit_m: mean(|tally| tally.hit),
-        near_miss_m: mean(|tally| tally.near_miss),
-        conflict_m: mean(|tally| tally.conflict),
+        hit_m: mean(|counts| counts.hit),
+        near_miss_m: mean(|counts| counts.near_miss),
+        conflict_m: mean(|counts| counts.conflict),
         free_m2: f64::from(free) * second.sample_area,
         overlap: (f64::from(known) * second.sample_area / smaller).min(1.0),
-        same_side_m: mean(|tally| tally.same_side),
-        opposite_side_m: mean(|tally| tally.opposite_side),
+        same_side_m: mean(|counts| counts.same_side),
+        opposite_side_m: mean(|counts| counts.opposite_side),
         cross_m: spread.symmetric_eigenvalues().min().max(0.0),
         chance: f64::from(near) / f64::from(known.max(1)),
         relaxed: Relaxed::default(),

@@ -1,16 +1,18 @@
 //! The layers of the workspace, held against the manifests.
 //!
 //! `ogm-core` stands on nothing of ours. Crates of one idea stand on `ogm-core` and not on each
-//! other; their tests may use `ogm-sim`. `ogm-merge` composes them. The tools use anything.
+//! other; their tests may use `ogm-sim`. `ogm-merge` composes them. The proof measures all of
+//! these and is for `xtask` alone. The tools use anything else.
 
 use serde_json::Value;
 
 /// Registry crates that only these packages may depend on directly.
-const HOMES: [(&str, &[&str]); 4] = [
+const HOMES: [(&str, &[&str]); 5] = [
     ("faer", &["pose-graph2d"]),
     ("parry2d", &["icp2d"]),
-    ("image", &["ogm-io", "ogm-view", "ogm-bench", "xtask"]),
+    ("image", &["ogm-io", "ogm-view", "ogm-bench", "ogm-eval"]),
     ("serde-saphyr", &["ogm-io"]),
+    ("wait4", &["ogm-eval"]),
 ];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +23,8 @@ enum Layer {
     Idea,
     /// Recipes over the ideas.
     Composition,
+    /// What measures all of these.
+    Proof,
     /// What touches the world.
     Tool,
 }
@@ -31,6 +35,7 @@ fn layer(package: &str) -> Layer {
     match package {
         "ogm-core" => Layer::Vocabulary,
         "ogm-merge" => Layer::Composition,
+        "ogm-eval" => Layer::Proof,
         "ogm-cli" | "ogm-bench" | "xtask" => Layer::Tool,
         _ => Layer::Idea,
     }
@@ -42,6 +47,8 @@ fn may_depend(from: &str, to: &str, for_tests_only: bool) -> bool {
         (Layer::Idea, Layer::Vocabulary) => true,
         (Layer::Idea, _) => for_tests_only && to == "ogm-sim",
         (Layer::Composition, to) => matches!(to, Layer::Vocabulary | Layer::Idea),
+        (Layer::Proof, to) => !matches!(to, Layer::Proof | Layer::Tool),
+        (Layer::Tool, Layer::Proof) => from == "xtask",
         (Layer::Tool, _) => true,
     }
 }
@@ -95,7 +102,7 @@ mod tests {
 
     /// Metadata of a workspace with one dependency; packages that it does not name exist too.
     fn edge(from: &str, to: &str, kind: Value) -> Value {
-        let others = ["ogm-core", "icp2d", "ogm-sim", "ogm-merge", "xtask"];
+        let others = ["ogm-core", "icp2d", "ogm-sim", "ogm-merge", "ogm-eval", "ogm-cli", "xtask"];
         let mut packages: Vec<Value> = others
             .iter()
             .filter(|name| **name != from)
@@ -119,7 +126,15 @@ mod tests {
             ("ogm-merge", "xtask", json!("dev")),
             ("icp2d", "image", normal()),
             ("ogm-merge", "image", json!("dev")),
+            ("ogm-merge", "ogm-eval", json!("dev")),
+            ("ogm-sim", "ogm-eval", normal()),
+            ("ogm-cli", "ogm-eval", normal()),
+            ("ogm-bench", "ogm-eval", normal()),
+            ("ogm-eval", "ogm-cli", normal()),
+            ("ogm-eval", "xtask", json!("dev")),
             ("xtask", "parry2d", normal()),
+            ("xtask", "image", normal()),
+            ("xtask", "wait4", normal()),
             ("xtask", "serde-saphyr", normal()),
             ("ogm-merge", "faer", normal()),
         ] {
@@ -139,7 +154,10 @@ mod tests {
             ("ogm-merge", "icp2d", normal()),
             ("ogm-merge", "ogm-sim", json!("dev")),
             ("xtask", "ogm-merge", normal()),
-            ("xtask", "image", normal()),
+            ("ogm-eval", "icp2d", normal()),
+            ("ogm-eval", "ogm-merge", normal()),
+            ("ogm-eval", "image", normal()),
+            ("xtask", "ogm-eval", normal()),
             ("ogm-io", "serde-saphyr", normal()),
             ("icp2d", "parry2d", normal()),
         ] {

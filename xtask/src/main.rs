@@ -1,24 +1,9 @@
-//! The proof: reproduces the papers' tables and checks the shape of the workspace.
+//! Tasks of the workspace: thin fronts over the proof, and the checks of the workspace's shape.
 
-#![expect(
-    clippy::disallowed_methods,
-    reason = "this is where files are written and time is measured"
-)]
-#![expect(
-    clippy::print_stdout,
-    clippy::print_stderr,
-    reason = "it talks to a person at a terminal"
-)]
+#![expect(clippy::print_stderr, reason = "it talks to a person at a terminal")]
 
-mod compare;
-mod draw;
-mod fixtures;
 #[cfg(test)]
 mod layers;
-mod map_pair;
-mod race;
-mod report;
-mod stats;
 #[cfg(test)]
 mod tidy;
 
@@ -26,6 +11,7 @@ use std::path::PathBuf;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
+use ogm_eval::{compare, fixtures, race};
 
 /// Tasks of the workspace.
 #[derive(Debug, Parser)]

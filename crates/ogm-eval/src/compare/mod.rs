@@ -35,14 +35,16 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::report::Section;
 
-pub(crate) use args::Args;
+pub use args::Args;
 use args::ExperimentId;
 use record::Run;
 
 /// Whether every criterion that was judged holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Verdict {
+pub enum Verdict {
+    /// All of them.
     Passed,
+    /// All but some.
     Failed,
 }
 
@@ -64,7 +66,7 @@ struct Timing {
 }
 
 /// Runs what the command line asks for and writes the report.
-pub(crate) fn run(args: &Args) -> anyhow::Result<Verdict> {
+pub fn run(args: &Args) -> anyhow::Result<Verdict> {
     args.check()?;
     let mut all = Measured::default();
     for experiment in args.experiments() {

@@ -11,7 +11,7 @@ use serde_json::json;
 const RESOLUTION: f64 = 0.05;
 
 /// Writes both maps, both tag logs and the truth into `folder`.
-pub(crate) fn write(folder: &Path) -> anyhow::Result<()> {
+pub fn write(folder: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot create {}", folder.display()))?;
     let pair = simulated()?;
@@ -61,7 +61,7 @@ mod tests {
     fn the_committed_maps_are_what_this_writes() {
         let fresh = tempfile::tempdir().unwrap();
         write(fresh.path()).unwrap();
-        let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/plan-a");
+        let committed = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/plan-a");
         for name in ["target", "source"] {
             let read = |folder: &Path| {
                 let map = ogm_io::read_map(&folder.join(format!("{name}.yaml"))).unwrap().map;
@@ -86,7 +86,7 @@ mod tests {
 
     #[test]
     fn the_files_merge_at_the_stated_truth() {
-        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/plan-a");
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../fixtures/plan-a");
         let read = |name: &str| {
             let map = ogm_io::read_map(&folder.join(format!("{name}.yaml"))).unwrap().map;
             let readings = ogm_io::read_tags(&folder.join(format!("{name}.tags.csv"))).unwrap();

@@ -7,7 +7,7 @@ use clap::ValueEnum;
 
 /// Runs the papers' experiments and writes tables, figures and a report.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub struct Args {
     /// Run only this experiment; repeat for several.
     #[arg(long, value_enum, ignore_case = true)]
     pub(crate) only: Vec<ExperimentId>,

@@ -20,7 +20,7 @@ use score::Score;
 
 /// Times the command `ogm` and other tools on the same map pairs, and scores their answers.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {
+pub struct Args {
     /// Folder of real pairs: subfolders with a.yaml, b.yaml and truth.json.
     #[arg(long)]
     pairs: PathBuf,
@@ -63,7 +63,7 @@ struct Outcome {
 }
 
 /// Runs all commands on all pairs and prints the tables.
-pub(crate) fn run(args: &Args) -> anyhow::Result<()> {
+pub fn run(args: &Args) -> anyhow::Result<()> {
     let mut contestants = vec![Contestant::new("ogm align", &args.ours)?];
     contestants.extend(args.peers.iter().cloned());
     let real = read_pairs(&folders_of_pairs(&args.pairs)?)?;

@@ -11,6 +11,9 @@ use serde_json::json;
 const RESOLUTION: f64 = 0.05;
 
 /// Writes both maps, both tag logs and the truth into `folder`.
+///
+/// # Errors
+/// A file that cannot be written.
 pub fn write(folder: &Path) -> anyhow::Result<()> {
     std::fs::create_dir_all(folder)
         .with_context(|| format!("cannot create {}", folder.display()))?;

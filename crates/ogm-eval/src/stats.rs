@@ -72,6 +72,11 @@ pub(crate) fn standard_deviation(values: &[f64]) -> Option<f64> {
     Some((squares / (values.len() - 1) as f64).sqrt())
 }
 
+/// The middle value, or `None` of nothing or with a NaN.
+pub(crate) fn median(values: &[f64]) -> Option<f64> {
+    quantile(values, 0.5)
+}
+
 /// The `p` quantile of `values` in any order, or `None` of nothing or with a NaN.
 pub(crate) fn quantile(values: &[f64], p: f64) -> Option<f64> {
     sorted(values).map(|sorted| quantile_of_sorted(&sorted, p))
@@ -116,6 +121,31 @@ pub(crate) fn wilson_ci95(successes: usize, trials: usize) -> (f64, f64) {
     let scale = 1.0 + z_sq_over_n;
     let clamp = |end: f64| (end / scale).clamp(0.0, 1.0);
     (clamp(centre - half), clamp(centre + half))
+}
+
+/// How many of how many.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Share {
+    pub(crate) hits: usize,
+    pub(crate) of: usize,
+}
+
+impl Share {
+    /// The values for which something holds.
+    pub(crate) fn holding<T>(values: &[T], holds: impl Fn(&T) -> bool) -> Self {
+        let hits = values.iter().filter(|value| holds(value)).count();
+        Self { hits, of: values.len() }
+    }
+
+    /// From 0 to 1; NaN of nothing.
+    pub(crate) fn fraction(self) -> f64 {
+        self.hits as f64 / self.of as f64
+    }
+
+    /// Wilson's 95 % interval.
+    pub(crate) fn ci95(self) -> (f64, f64) {
+        wilson_ci95(self.hits, self.of)
+    }
 }
 
 /// 97.5 % quantile of Student's t: tabulated to 30 degrees of freedom, then the expansion of

@@ -8,7 +8,7 @@ use anyhow::{Context, ensure};
 use wait4::Wait4;
 
 use super::answer::Answer;
-use crate::map_pair::Files;
+use crate::cases::map_pair::Files;
 
 /// What keeps the usual numeric libraries to one thread.
 const ONE_THREAD: [&str; 4] =
@@ -16,7 +16,7 @@ const ONE_THREAD: [&str; 4] =
 
 /// A command with places for the files of a pair.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub(super) struct Contestant {
+pub struct Contestant {
     pub(super) name: String,
     /// The program and its arguments, with `{a}`, `{b}`, `{a_pgm}` and `{b_pgm}` in them.
     words: Vec<String>,
@@ -27,6 +27,8 @@ pub(super) struct Contestant {
 pub(super) struct Run {
     /// `None` for an exit status other than 0 and 3, and for output that is no answer.
     pub(super) answer: Option<Answer>,
+    /// What it had to say when it gave none.
+    pub(super) complaint: Option<String>,
     /// User and system CPU seconds of the process and of the children it waited for, start-up
     /// included.
     pub(super) cpu_s: f64,
@@ -45,12 +47,15 @@ impl Contestant {
     }
 
     /// Reads `NAME=COMMAND`.
-    pub(super) fn parse(text: &str) -> anyhow::Result<Self> {
+    ///
+    /// # Errors
+    /// No name, no command, or a command that leaves out one of the maps.
+    pub fn parse(text: &str) -> anyhow::Result<Self> {
         let (name, command) = text.split_once('=').context("write NAME=COMMAND")?;
         Self::new(name, command)
     }
 
-    /// Runs the command on a pair; on the terminal goes what it had to say when it crashes.
+    /// Runs the command on a pair.
     ///
     /// # Errors
     /// A program that cannot be started.
@@ -72,11 +77,12 @@ impl Contestant {
         let used = child.wait4().with_context(|| format!("waiting for {}", self.name))?;
         let ended_well = matches!(used.status.code(), Some(0 | 3));
         let answer = Answer::parse(&output).filter(|_| ended_well);
-        if answer.is_none() {
+        let complaint = answer.is_none().then(|| {
             let last = complaint.trim_end().lines().last().unwrap_or_default();
-            eprintln!("{} on {}: {} {last}", self.name, files.a.display(), used.status);
-        }
-        Ok(Run { answer, cpu_s: (used.rusage.utime + used.rusage.stime).as_secs_f64() })
+            format!("{} on {}: {} {last}", self.name, files.a.display(), used.status)
+        });
+        let cpu_s = (used.rusage.utime + used.rusage.stime).as_secs_f64();
+        Ok(Run { answer, complaint, cpu_s })
     }
 
     fn words_for(&self, files: &Files) -> Vec<String> {
@@ -107,7 +113,7 @@ fn text(pipe: Option<impl Read>) -> String {
 #[cfg(test)]
 mod tests {
     use super::Contestant;
-    use crate::map_pair::Files;
+    use crate::cases::map_pair::Files;
 
     fn files() -> Files {
         let file = |name: &str| std::path::Path::new("some maps").join(name);

@@ -3,94 +3,69 @@
 
 mod answer;
 mod contestant;
-mod estate;
-mod pair;
-mod score;
+mod record;
 mod tables;
 
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
 
-use crate::map_pair::folders_of_pairs;
+use crate::cases::estate;
+use crate::cases::map_pair::folders_of_pairs;
+use crate::judge::Verdict;
 use crate::report::{self, Table};
-use contestant::Contestant;
-use pair::{Pair, read_pairs};
-use score::Score;
+use record::{Outcome, Pair, Raced, smallest_first};
 
-/// Times the command `ogm` and other tools on the same map pairs, and scores their answers.
-#[derive(Debug, clap::Args)]
-pub struct Args {
+pub use contestant::Contestant;
+
+/// Who runs on what.
+#[derive(Debug, Clone)]
+pub struct Options {
     /// Folder of real pairs: subfolders with a.yaml, b.yaml and truth.json.
-    #[arg(long)]
-    pairs: PathBuf,
+    pub pairs: PathBuf,
     /// Our command, split at white space.
-    #[arg(long, default_value = "target/release/ogm align {a} {b} --json")]
-    ours: String,
-    /// Another tool as NAME=COMMAND with {a}, {b} (YAML) and {a_pgm}, {b_pgm} (image); repeat for
-    /// several. It prints JSON as `ogm align` does, or ok, dx, dy, theta_deg and cpu_seconds.
-    #[arg(long = "peer", value_parser = Contestant::parse)]
-    peers: Vec<Contestant>,
+    pub ours: String,
+    /// Other tools.
+    pub peers: Vec<Contestant>,
     /// Runs of each command on each pair; the least time counts.
-    #[arg(long, default_value_t = 3, value_parser = clap::value_parser!(u32).range(1..))]
-    repeat: u32,
+    pub repeat: u32,
     /// Largest synthetic map, in cells, that peers get too.
-    #[arg(long, default_value_t = 4_000_000)]
-    peer_cells: usize,
+    pub peer_cells: usize,
     /// Where the synthetic pairs go.
-    #[arg(long, default_value = "target/race/pairs")]
-    out: PathBuf,
-    /// Also write the tables into this document.
-    #[arg(long)]
-    splice: Option<PathBuf>,
+    pub out: PathBuf,
 }
 
-/// What each command made of one pair; `None` where it did not take part.
-#[derive(Debug)]
-struct Raced {
-    pair: Pair,
-    outcomes: Vec<Option<Outcome>>,
-}
-
-/// What one command made of one pair.
-#[derive(Debug, Clone, Copy)]
-struct Outcome {
-    score: Score,
-    /// Least CPU seconds of the process, start-up included.
-    cpu_s: f64,
-    /// Least CPU seconds without start-up and reading, if the command counts them itself.
-    own_cpu_s: Option<f64>,
-}
-
-/// Runs all commands on all pairs and prints the tables.
-pub fn run(args: &Args) -> anyhow::Result<()> {
-    let mut contestants = vec![Contestant::new("ogm align", &args.ours)?];
-    contestants.extend(args.peers.iter().cloned());
-    let real = read_pairs(&folders_of_pairs(&args.pairs)?)?;
-    let synthetic = read_pairs(&estate::write_pairs(&args.out)?)?;
+/// Runs all commands on all pairs and gives the tables as text; `say` gets a line for each pair.
+///
+/// # Errors
+/// Pairs that cannot be read or written, and a program that cannot be started.
+pub fn run(options: &Options, say: &dyn Fn(&str)) -> anyhow::Result<String> {
+    let mut contestants = vec![Contestant::new("ogm align", &options.ours)?];
+    contestants.extend(options.peers.iter().cloned());
+    let real = smallest_first(&folders_of_pairs(&options.pairs)?)?;
+    let synthetic = smallest_first(&estate::write_pairs(&options.out)?)?;
     let race = |pairs: Vec<Pair>, peer_cells: usize| -> anyhow::Result<Vec<Raced>> {
         let pairs = pairs.into_iter();
-        pairs.map(|pair| race_on(pair, &contestants, args.repeat, peer_cells)).collect()
+        let raced = pairs.map(|pair| {
+            let raced = race_on(pair, &contestants, (options.repeat, peer_cells), say)?;
+            say(&tables::line(&raced));
+            Ok(raced)
+        });
+        raced.collect()
     };
-    let sized = race(synthetic, args.peer_cells)?;
+    let sized = race(synthetic, options.peer_cells)?;
     let real = race(real, usize::MAX)?;
 
     let names: Vec<&str> = contestants.iter().map(|one| one.name.as_str()).collect();
-    let tables = tables::all(&names, &real, &sized);
-    let text = document_text(&tables);
-    println!("{text}");
-    if let Some(document) = &args.splice {
-        splice_into(document, &text)?;
-    }
-    Ok(())
+    Ok(document_text(&tables::all(&names, &real, &sized)))
 }
 
 /// One pair: the commands take turns, so that whatever else the machine does hits all alike.
 fn race_on(
     pair: Pair,
     contestants: &[Contestant],
-    repeat: u32,
-    peer_cells: usize,
+    (repeat, peer_cells): (u32, usize),
+    say: &dyn Fn(&str),
 ) -> anyhow::Result<Raced> {
     let mut outcomes: Vec<Option<Outcome>> = vec![None; contestants.len()];
     for _ in 0..repeat {
@@ -99,8 +74,14 @@ fn race_on(
                 continue;
             }
             let run = contestant.run(&pair.files)?;
+            if let Some(complaint) = &run.complaint {
+                say(complaint);
+            }
+            let verdict = run.answer.as_ref().map_or(Verdict::Crash, |answer| {
+                Verdict::of(answer.target_from_source.as_ref(), pair.truth.as_ref())
+            });
             let this = Outcome {
-                score: Score::of(run.answer.as_ref(), pair.truth.as_ref()),
+                verdict,
                 cpu_s: run.cpu_s,
                 own_cpu_s: run.answer.and_then(|answer| answer.own_cpu_s),
             };
@@ -108,21 +89,7 @@ fn race_on(
             outcomes[place] = Some(before.map_or(this, |before| before.and(this)));
         }
     }
-    let raced = Raced { pair, outcomes };
-    eprintln!("{}", tables::line(&raced));
-    Ok(raced)
-}
-
-impl Outcome {
-    /// Two runs as one: the shorter times and the first score, but a crash is a crash.
-    fn and(self, next: Self) -> Self {
-        let crashed = next.score == Score::Crash;
-        Self {
-            score: if crashed { Score::Crash } else { self.score },
-            cpu_s: self.cpu_s.min(next.cpu_s),
-            own_cpu_s: self.own_cpu_s.zip(next.own_cpu_s).map(|(a, b)| a.min(b)),
-        }
-    }
+    Ok(Raced { pair, outcomes })
 }
 
 fn document_text(tables: &[(&str, Table)]) -> String {
@@ -136,15 +103,14 @@ fn document_text(tables: &[(&str, Table)]) -> String {
     text
 }
 
-fn splice_into(document: &Path, text: &str) -> anyhow::Result<()> {
+/// Puts the tables into a document, under the command that made them.
+///
+/// # Errors
+/// A document that cannot be read or written, or has no markers.
+pub fn splice_into(document: &Path, text: &str, command: &str) -> anyhow::Result<()> {
     let before = std::fs::read_to_string(document)
         .with_context(|| format!("cannot read {}", document.display()))?;
-    let words = std::env::args().skip(1).map(|word| {
-        let plain = |c: char| c.is_ascii_alphanumeric() || "-_./".contains(c);
-        if word.chars().all(plain) { word } else { format!("'{word}'") }
-    });
-    let command = format!("cargo xtask {}", words.collect::<Vec<_>>().join(" "));
-    let after = report::splice(&before, "race", text, &command)
+    let after = report::splice(&before, "race", text, command)
         .with_context(|| format!("in {}", document.display()))?;
     report::write_file(document, after.as_bytes())
 }

@@ -2,8 +2,8 @@
 
 use std::ops::RangeInclusive;
 
-use super::score::Score;
-use super::{Outcome, Raced};
+use super::record::{Outcome, Raced};
+use crate::judge::Verdict;
 use crate::report::Table;
 use crate::stats::quantile;
 
@@ -65,16 +65,16 @@ fn standings(names: &[&str], raced: &[&Raced], caption: &str) -> Table {
     let rows = names.iter().enumerate().map(|(place, name)| {
         let outcomes: Vec<Outcome> =
             raced.iter().filter_map(|raced| raced.outcomes[place]).collect();
-        let count = |good: fn(Score) -> bool| {
-            outcomes.iter().filter(|outcome| good(outcome.score)).count().to_string()
+        let count = |good: fn(Verdict) -> bool| {
+            outcomes.iter().filter(|outcome| good(outcome.verdict)).count().to_string()
         };
         let mut row = vec![
             (*name).to_owned(),
-            count(Score::is_success),
-            count(|score| score == Score::Strict),
-            count(|score| score == Score::Wrong),
-            count(|score| score == Score::False),
-            count(|score| score == Score::Crash),
+            count(Verdict::is_right),
+            count(|verdict| verdict == Verdict::Strict),
+            count(|verdict| verdict == Verdict::Wrong),
+            count(|verdict| verdict == Verdict::False),
+            count(|verdict| verdict == Verdict::Crash),
         ];
         row.extend(spread(&times(raced, place, |outcome| Some(outcome.cpu_s))));
         row.extend(spread(&times(raced, place, |outcome| outcome.own_cpu_s)));
@@ -90,23 +90,16 @@ fn standings(names: &[&str], raced: &[&Raced], caption: &str) -> Table {
 /// The times of one command on the pairs that it did not crash on.
 fn times(raced: &[&Raced], place: usize, of: fn(Outcome) -> Option<f64>) -> Vec<f64> {
     let outcomes = raced.iter().filter_map(|raced| raced.outcomes[place]);
-    outcomes.filter(|outcome| outcome.score != Score::Crash).filter_map(of).collect()
+    outcomes.filter(|outcome| outcome.verdict != Verdict::Crash).filter_map(of).collect()
 }
 
 /// The bare time of one command over the time of ours, on each pair that both have answered.
 fn ratios(raced: &[&Raced], place: usize) -> Vec<f64> {
     let answered = |raced: &Raced, place: usize| {
-        raced.outcomes[place].filter(|outcome| outcome.score != Score::Crash)
+        raced.outcomes[place].filter(|outcome| outcome.verdict != Verdict::Crash)
     };
     let pairs = raced.iter().filter_map(|raced| answered(raced, place).zip(answered(raced, 0)));
     pairs.map(|(theirs, ours)| theirs.bare_s() / ours.cpu_s).collect()
-}
-
-impl Outcome {
-    /// The time without what a start costs, if the command tells.
-    fn bare_s(self) -> f64 {
-        self.own_cpu_s.unwrap_or(self.cpu_s)
-    }
 }
 
 /// Median, 90 % quantile and maximum.
@@ -137,9 +130,9 @@ fn pair_by_pair(names: &[&str], raced: &[Raced], caption: &str) -> Table {
 }
 
 fn cell(outcome: Outcome) -> String {
-    match outcome.score {
-        Score::Crash => Score::Crash.text().to_owned(),
-        score => format!("{} {}", seconds_text(outcome.bare_s()), score.text()),
+    match outcome.verdict {
+        Verdict::Crash => Verdict::Crash.text().to_owned(),
+        verdict => format!("{} {}", seconds_text(outcome.bare_s()), verdict.text()),
     }
 }
 
@@ -151,20 +144,21 @@ pub(super) fn line(raced: &Raced) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{Outcome, Raced, standings};
-    use crate::map_pair::Files;
-    use crate::race::pair::{Pair, Truth};
-    use crate::race::score::Score;
+    use super::{Outcome, Raced, Verdict, standings};
+    use crate::cases::map_pair::Files;
+    use crate::judge::{HALF_A_DOOR, Truth};
+    use crate::race::record::Pair;
     use nalgebra::Point2;
     use ogm_core::Se2;
 
     fn raced(matching: bool, ours: Outcome, theirs: Option<Outcome>) -> Raced {
         let truth = Truth {
             target_from_source: Se2::identity(),
-            source_centroid: Point2::origin(),
-            target_resolution: 0.05,
-            tolerance_m: 0.25,
-            tolerance: 0.02,
+            centre: Point2::origin(),
+            radius: 0.0,
+            cell: 0.05,
+            tolerance: HALF_A_DOOR,
+            exact: true,
         };
         let [a, b, a_image, b_image] = ["a.yaml", "b.yaml", "a.pgm", "b.pgm"].map(Into::into);
         let files = Files { a, b, a_image, b_image };
@@ -173,8 +167,8 @@ mod tests {
         Raced { pair, outcomes: vec![Some(ours), theirs] }
     }
 
-    fn outcome(score: Score, cpu_s: f64, own_cpu_s: Option<f64>) -> Outcome {
-        Outcome { score, cpu_s, own_cpu_s }
+    fn outcome(verdict: Verdict, cpu_s: f64, own_cpu_s: Option<f64>) -> Outcome {
+        Outcome { verdict, cpu_s, own_cpu_s }
     }
 
     #[test]
@@ -182,16 +176,20 @@ mod tests {
         let pairs = [
             raced(
                 true,
-                outcome(Score::Strict, 0.1, None),
-                Some(outcome(Score::Wrong, 9.0, Some(1.0))),
+                outcome(Verdict::Strict, 0.1, None),
+                Some(outcome(Verdict::Wrong, 9.0, Some(1.0))),
             ),
             raced(
                 true,
-                outcome(Score::Inside, 0.2, None),
-                Some(outcome(Score::Near, 9.0, Some(3.0))),
+                outcome(Verdict::Inside, 0.2, None),
+                Some(outcome(Verdict::Near, 9.0, Some(3.0))),
             ),
-            raced(true, outcome(Score::Missed, 0.4, None), Some(outcome(Score::Crash, 0.01, None))),
-            raced(false, outcome(Score::False, 0.3, None), None),
+            raced(
+                true,
+                outcome(Verdict::Missed, 0.4, None),
+                Some(outcome(Verdict::Crash, 0.01, None)),
+            ),
+            raced(false, outcome(Verdict::False, 0.3, None), None),
         ];
         let table = standings(&["ours", "theirs"], &pairs.iter().collect::<Vec<_>>(), "");
         assert_eq!(table.header[1..5], ["right of 3", "strict", "wrong", "false of 1"]);

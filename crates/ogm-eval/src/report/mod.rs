@@ -1,9 +1,11 @@
 //! A report: what was measured, against what, and the files that say so.
 
 mod csv;
+pub(crate) mod format;
 mod html;
 mod json;
 mod markdown;
+mod quote;
 mod splice;
 mod write;
 
@@ -11,6 +13,7 @@ pub(crate) use csv::csv;
 pub(crate) use html::html;
 pub(crate) use json::summary_json;
 pub(crate) use markdown::{markdown, markdown_table};
+pub(crate) use quote::quote_in;
 pub(crate) use splice::splice;
 pub(crate) use write::{write_all, write_file};
 

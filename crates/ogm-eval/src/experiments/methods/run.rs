@@ -49,7 +49,7 @@ fn run_world(
     let world = World::simulate(building, seed)?;
     let overlap =
         Overlap::new(&world.pair.target.map, &world.pair.source.map, world.target_from_source());
-    let errors = Some(|pose: &Se2| overlap.errors(pose));
+    let errors = Some(|target_from_source: &Se2| overlap.errors(target_from_source));
     let variants = if all_variants { &VARIANTS[..] } else { &VARIANTS[..DEFAULT_VARIANTS] };
     let (mut runs, mut timings) = (Vec::new(), Vec::new());
     for sigma_px in REGIMES {

@@ -44,8 +44,9 @@ fn answer(pair: &MapPair, seed: u64) -> anyhow::Result<Answers> {
         .truth
         .as_ref()
         .map(|truth| (truth, Overlap::new(&pair.target, &pair.source, truth.target_from_source)));
-    let errors =
-        overlap.as_ref().map(|(truth, overlap)| move |pose: &Se2| truth.errors(overlap, pose));
+    let errors = overlap.as_ref().map(|(truth, overlap)| {
+        move |target_from_source: &Se2| truth.errors(overlap, target_from_source)
+    });
     let mut answers = Answers::default();
     match localised_tags(pair, seed)? {
         Ok([target_tags, source_tags]) => {

@@ -1,6 +1,6 @@
 //! The proof: everything of the workspace that measures.
 //!
-//! One [judge](crate#layout) says what is right; *cases* are what is measured on, simulated or on
+//! One `judge` says what is right; *cases* are what is measured on, simulated or on
 //! disk; each *experiment* has a folder of its own; [`race`] times other tools on the same pairs;
 //! [`record`] keeps dated results and compares two of them.
 //!

@@ -1,16 +1,18 @@
 //! The layers of the workspace, held against the manifests.
 //!
 //! `ogm-core` stands on nothing of ours. Crates of one idea stand on `ogm-core` and not on each
-//! other; their tests may use `ogm-sim`. `ogm-merge` composes them. The tools use anything.
+//! other; their tests may use `ogm-sim`. `ogm-merge` composes them. The proof measures all of
+//! these and is for `xtask` alone. The tools use anything else.
 
 use serde_json::Value;
 
 /// Registry crates that only these packages may depend on directly.
-const HOMES: [(&str, &[&str]); 4] = [
+const HOMES: [(&str, &[&str]); 5] = [
     ("faer", &["pose-graph2d"]),
     ("parry2d", &["icp2d"]),
-    ("image", &["ogm-io", "ogm-view", "ogm-bench", "xtask"]),
+    ("image", &["ogm-io", "ogm-view", "ogm-bench", "ogm-eval"]),
     ("serde-saphyr", &["ogm-io"]),
+    ("wait4", &["ogm-eval"]),
 ];
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,6 +23,8 @@ enum Layer {
     Idea,
     /// Recipes over the ideas.
     Composition,
+    /// What measures all of these.
+    Proof,
     /// What touches the world.
     Tool,
 }
@@ -31,6 +35,7 @@ fn layer(package: &str) -> Layer {
     match package {
         "ogm-core" => Layer::Vocabulary,
         "ogm-merge" => Layer::Composition,
+        "ogm-eval" => Layer::Proof,
         "ogm-cli" | "ogm-bench" | "xtask" => Layer::Tool,
         _ => Layer::Idea,
     }
@@ -42,9 +47,15 @@ fn may_depend(from: &str, to: &str, for_tests_only: bool) -> bool {
         (Layer::Idea, Layer::Vocabulary) => true,
         (Layer::Idea, _) => for_tests_only && to == "ogm-sim",
         (Layer::Composition, to) => matches!(to, Layer::Vocabulary | Layer::Idea),
+        (Layer::Proof, to) => !matches!(to, Layer::Proof | Layer::Tool),
+        (Layer::Tool, Layer::Proof) => from == "xtask",
         (Layer::Tool, _) => true,
     }
 }
+
+/// What the command must not use: what a search needs is chosen, tried and believed below it.
+const NOT_FOR_THE_COMMAND: [&str; 7] =
+    ["grid-match", "carpin-walk", "radon-merge", "rfid-loc", "icp2d", "line-ransac", "ogm-vector"];
 
 /// Edges of the output of `cargo metadata --no-deps` that the layers forbid, and what keeps them
 /// from being judged.
@@ -63,6 +74,9 @@ fn violations(metadata: &Value) -> Vec<String> {
             if names.contains(&to) && !may_depend(from, to, for_tests_only) {
                 let kind = if for_tests_only { " in its tests" } else { "" };
                 found.push(format!("{from} depends on {to}{kind}"));
+            }
+            if from == "ogm-cli" && !for_tests_only && NOT_FOR_THE_COMMAND.contains(&to) {
+                found.push(format!("{from} depends on {to}, which ogm-merge calls for it"));
             }
             let home = HOMES.iter().find(|(guest, _)| *guest == to);
             if let Some((_, hosts)) = home.filter(|(_, hosts)| !hosts.contains(&from)) {
@@ -95,7 +109,7 @@ mod tests {
 
     /// Metadata of a workspace with one dependency; packages that it does not name exist too.
     fn edge(from: &str, to: &str, kind: Value) -> Value {
-        let others = ["ogm-core", "icp2d", "ogm-sim", "ogm-merge", "xtask"];
+        let others = ["ogm-core", "icp2d", "ogm-sim", "ogm-merge", "ogm-eval", "ogm-cli", "xtask"];
         let mut packages: Vec<Value> = others
             .iter()
             .filter(|name| **name != from)
@@ -117,9 +131,19 @@ mod tests {
             ("line-ransac", "ogm-sim", json!("build")),
             ("a-new-crate", "ogm-merge", normal()),
             ("ogm-merge", "xtask", json!("dev")),
+            ("ogm-cli", "grid-match", normal()),
+            ("ogm-cli", "ogm-vector", json!("build")),
             ("icp2d", "image", normal()),
             ("ogm-merge", "image", json!("dev")),
+            ("ogm-merge", "ogm-eval", json!("dev")),
+            ("ogm-sim", "ogm-eval", normal()),
+            ("ogm-cli", "ogm-eval", normal()),
+            ("ogm-bench", "ogm-eval", normal()),
+            ("ogm-eval", "ogm-cli", normal()),
+            ("ogm-eval", "xtask", json!("dev")),
             ("xtask", "parry2d", normal()),
+            ("xtask", "image", normal()),
+            ("xtask", "wait4", normal()),
             ("xtask", "serde-saphyr", normal()),
             ("ogm-merge", "faer", normal()),
         ] {
@@ -138,8 +162,13 @@ mod tests {
             ("line-ransac", "nalgebra", normal()),
             ("ogm-merge", "icp2d", normal()),
             ("ogm-merge", "ogm-sim", json!("dev")),
+            ("ogm-cli", "ogm-merge", normal()),
+            ("ogm-cli", "ogm-sim", json!("dev")),
             ("xtask", "ogm-merge", normal()),
-            ("xtask", "image", normal()),
+            ("ogm-eval", "icp2d", normal()),
+            ("ogm-eval", "ogm-merge", normal()),
+            ("ogm-eval", "image", normal()),
+            ("xtask", "ogm-eval", normal()),
             ("ogm-io", "serde-saphyr", normal()),
             ("icp2d", "parry2d", normal()),
         ] {

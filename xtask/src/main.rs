@@ -1,24 +1,17 @@
-//! The proof: reproduces the papers' tables and checks the shape of the workspace.
+//! Tasks of the workspace: thin fronts over the proof, and the checks of the workspace's shape.
 
-#![expect(
-    clippy::disallowed_methods,
-    reason = "this is where files are written and time is measured"
-)]
 #![expect(
     clippy::print_stdout,
     clippy::print_stderr,
     reason = "it talks to a person at a terminal"
 )]
 
+mod bar;
 mod compare;
-mod draw;
-mod fixtures;
+mod diff;
 #[cfg(test)]
 mod layers;
-mod map_pair;
 mod race;
-mod report;
-mod stats;
 #[cfg(test)]
 mod tidy;
 
@@ -39,6 +32,8 @@ struct Cli {
 enum Task {
     /// Runs the papers' experiments and writes tables, figures and a report.
     Compare(compare::Args),
+    /// Shows what changed between two records of `compare`; fails if a criterion no longer holds.
+    Diff(diff::Args),
     /// Times the command `ogm` and other tools on the same map pairs, and scores their answers.
     Race(race::Args),
     /// Writes the example maps and tag logs into a folder.
@@ -51,16 +46,13 @@ enum Task {
 
 fn main() -> ExitCode {
     let done = match Cli::parse().task {
-        Task::Compare(args) => compare::run(&args),
-        Task::Race(args) => race::run(&args).map(|()| compare::Verdict::Passed),
-        Task::Fixtures { out } => fixtures::write(&out).map(|()| compare::Verdict::Passed),
+        Task::Compare(args) => compare::run(args),
+        Task::Diff(args) => diff::run(&args),
+        Task::Race(args) => race::run(args),
+        Task::Fixtures { out } => ogm_eval::fixtures::write(&out).map(|()| ExitCode::SUCCESS),
     };
-    match done {
-        Ok(compare::Verdict::Passed) => ExitCode::SUCCESS,
-        Ok(compare::Verdict::Failed) => ExitCode::FAILURE,
-        Err(error) => {
-            eprintln!("error: {error:#}");
-            ExitCode::from(2)
-        }
-    }
+    done.unwrap_or_else(|error| {
+        eprintln!("error: {error:#}");
+        ExitCode::from(2)
+    })
 }

@@ -1,6 +1,6 @@
 //! Motions say in their names which frames they join.
 
-use super::line_number;
+use super::text::line_number;
 
 /// Every field, parameter and typed variable of type `Se2` names both of its frames. The type's own
 /// file and tests may speak of any two motions.

@@ -1,9 +1,17 @@
-//! House rules that no compiler holds: file heads, sizes, names, frames in names, left-overs.
+//! House rules that no compiler holds: file heads, sizes, names, frames in names, circles of files,
+//! left-overs.
 
+#![expect(clippy::disallowed_methods, reason = "the rules are about files")]
+
+mod circles;
 mod frames;
+mod text;
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
+
+use text::line_number;
 
 /// No source file is longer, tests included.
 const MAX_LINES: usize = 400;
@@ -18,7 +26,7 @@ const RULEBOOK: &str = "xtask/src/tidy/";
 /// What in the workspace at `root` breaks a house rule, as "path:line: what"; empty if all is well.
 pub(crate) fn problems(root: &Path) -> Vec<String> {
     let mut found = Vec::new();
-    let mut sources = 0;
+    let mut sources: BTreeMap<String, String> = BTreeMap::new();
     for path in text_files(root, &mut found) {
         let text = match fs::read_to_string(root.join(&path)) {
             Ok(text) => text,
@@ -32,17 +40,33 @@ pub(crate) fn problems(root: &Path) -> Vec<String> {
             check_words(&path, &text, &mut found);
         }
         if path.ends_with(".rs") {
-            sources += 1;
             check_source(&path, &text, &mut found);
         }
         if is_member_manifest(&path) {
             check_member(root, &path, &text, &mut found);
         }
+        if path.ends_with(".rs") {
+            sources.insert(path, text);
+        }
     }
-    if sources == 0 {
+    check_circles(&sources, &mut found);
+    if sources.is_empty() {
         found.push("no source file: is this the root of the workspace?".to_owned());
     }
     found
+}
+
+/// Rules on the files of a crate together.
+fn check_circles(sources: &BTreeMap<String, String>, found: &mut Vec<String>) {
+    let mut crates: BTreeMap<&str, BTreeMap<&str, &str>> = BTreeMap::new();
+    for (path, text) in sources {
+        if let Some((package, _)) = path.split_once("/src/") {
+            crates.entry(package).or_default().insert(path, text);
+        }
+    }
+    for sources in crates.values() {
+        circles::check(sources, found);
+    }
 }
 
 /// Sources, manifests and documents below `root`, relative to it with `/`, in a fixed order.
@@ -153,10 +177,6 @@ fn check_attributes(path: &str, text: &str, found: &mut Vec<String>) {
     }
 }
 
-fn line_number(text: &str, position: usize) -> usize {
-    text[..position].matches('\n').count() + 1
-}
-
 /// Whether `path` is the manifest of a workspace member.
 fn is_member_manifest(path: &str) -> bool {
     let parts: Vec<&str> = path.split('/').collect();
@@ -240,6 +260,19 @@ mod tests {
             assert_eq!(found.len(), 1, "{path} {text:?} gives {found:?}");
             assert!(found[0].contains(complaint), "{path} {text:?} gives {found:?}");
         }
+    }
+
+    #[test]
+    fn files_that_import_each_other_are_found_in_their_own_crate_only() {
+        let a = "//! A.\nuse crate::b::B;\npub struct A(B);\n";
+        let b = "//! B.\nuse crate::a::A;\npub struct B(A);\n";
+        let lib = "//! A crate.\nmod a;\nmod b;\n";
+        let circle =
+            [("crates/a/src/lib.rs", lib), ("crates/a/src/a.rs", a), ("crates/a/src/b.rs", b)];
+        let expected = "crates/a/src/a.rs imports crates/a/src/b.rs imports crates/a/src/a.rs";
+        assert_eq!(found_with(&circle), [expected]);
+        let apart = [("crates/a/src/a.rs", a), ("xtask/src/b.rs", b)];
+        assert_eq!(found_with(&apart), Vec::<String>::new());
     }
 
     #[test]

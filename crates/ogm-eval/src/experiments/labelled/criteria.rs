@@ -1,0 +1,102 @@
+//! What X7 must show.
+
+use super::record::{Judged, count, to_merge};
+use crate::report::Criterion;
+use crate::stats::{Share, median};
+
+/// Overlap at which a merge is expected.
+const ENOUGH: f64 = 0.35;
+
+/// What is asked for: percents, cells and degrees.
+struct Floors {
+    right: f64,
+    found: f64,
+    falsely: f64,
+    cells: f64,
+    degrees: f64,
+}
+
+const FULL: Floors = Floors { right: 99.0, found: 75.0, falsely: 0.5, cells: 0.25, degrees: 0.05 };
+/// Some forty pairs to merge and sixty to refuse: none may be wrong or false, and two in three
+/// found where three in four are.
+const QUICK: Floors = Floors { right: 100.0, found: 65.0, falsely: 0.0, cells: 0.35, degrees: 0.1 };
+
+pub(super) fn criteria(judged: &[Judged], quick: bool) -> Vec<Criterion> {
+    let floors = if quick { QUICK } else { FULL };
+    let plain = to_merge(judged, |one| !one.kind.repeats());
+    let is_merged_rightly = |one: &Judged| one.is_merged() && one.is_right();
+    let merged = count(&plain, Judged::is_merged);
+    let rightly = count(&plain, is_merged_rightly);
+    let enough = to_merge(judged, |one| {
+        !one.kind.repeats() && one.overlap.is_some_and(|overlap| overlap >= ENOUGH)
+    });
+    let found = count(&enough, is_merged_rightly);
+    let refuse: Vec<&Judged> =
+        judged.iter().filter(|one| one.overlap.is_none() && one.is_decidable()).collect();
+    let falsely = count(&refuse, Judged::is_merged);
+    let criterion = |id: &str, statement: String, hits, of, pass: &dyn Fn(f64) -> bool| {
+        let (low, high) = Share { hits, of }.ci95();
+        let ours = 100.0 * hits as f64 / of.max(1) as f64;
+        Criterion {
+            id: format!("X7 {id}"),
+            statement,
+            paper: None,
+            ours,
+            interval: Some((100.0 * low, 100.0 * high)),
+            pass: of > 0 && pass(ours),
+        }
+    };
+    let Floors { right: least_right, found: least_found, falsely: most_falsely, .. } = floors;
+    let mut criteria = vec![
+        criterion(
+            "right",
+            format!("of merged, right ≥ {least_right} %"),
+            rightly,
+            merged,
+            &|ours| ours >= least_right,
+        ),
+        criterion(
+            "found",
+            format!("merged rightly ≥ {least_found} % at overlap ≥ {ENOUGH}"),
+            found,
+            enough.len(),
+            &|ours| ours >= least_found,
+        ),
+        criterion(
+            "false",
+            format!("of maps to refuse, merged ≤ {most_falsely} %"),
+            falsely,
+            refuse.len(),
+            &|ours| ours <= most_falsely,
+        ),
+    ];
+    criteria.extend(accuracy(&plain, &floors));
+    criteria
+}
+
+/// On pairs whose truth is exact.
+fn accuracy(pairs: &[&Judged], floors: &Floors) -> [Criterion; 2] {
+    let exact = || pairs.iter().filter(|one| one.exact && one.is_merged() && one.is_right());
+    let of = |error: fn(&Judged) -> Option<f64>| -> Vec<f64> {
+        exact().filter_map(|one| error(one)).collect()
+    };
+    let cells = of(|one| one.best.map(|best| best.error.displacement / one.cell));
+    let degrees = of(|one| one.best.map(|best| best.error.turn.to_degrees()));
+    let criterion = |id: &str, statement: String, errors: &[f64], limit: f64| {
+        let ours = median(errors).unwrap_or(f64::NAN);
+        Criterion {
+            id: format!("X7 {id}"),
+            statement,
+            paper: None,
+            ours,
+            interval: None,
+            pass: ours <= limit,
+        }
+    };
+    let of_cells = format!("median error, exact truth ≤ {} cell", floors.cells);
+    let of_degrees = format!("median turn, exact truth ≤ {}°", floors.degrees);
+    [
+        criterion("cells", of_cells, &cells, floors.cells),
+        criterion("degrees", of_degrees, &degrees, floors.degrees),
+    ]
+}

@@ -1,0 +1,97 @@
+//! The counts of X7.
+
+use ogm_sim::{FloorKind, Relation};
+
+use super::record::{Judged, count, to_merge};
+use crate::report::Table;
+use crate::stats::wilson_ci95;
+
+const BANDS: [[f64; 2]; 5] = [[0.15, 0.25], [0.25, 0.35], [0.35, 0.5], [0.5, 0.7], [0.7, 1.0]];
+
+/// "12 of 40, 30 % [18, 45]".
+fn share(hits: usize, of: usize) -> String {
+    if of == 0 {
+        return "–".to_owned();
+    }
+    let (low, high) = wilson_ci95(hits, of);
+    let percent = 100.0 * hits as f64 / of as f64;
+    format!("{hits} of {of}, {percent:.1} % [{:.1}, {:.1}]", 100.0 * low, 100.0 * high)
+}
+
+/// Best pose right, right pose listed, merged, merged rightly.
+fn columns(pairs: &[&Judged]) -> Vec<String> {
+    let merged = count(pairs, Judged::is_merged);
+    let rightly = count(pairs, |one| one.is_merged() && one.is_right());
+    vec![
+        pairs.len().to_string(),
+        share(count(pairs, Judged::is_right), pairs.len()),
+        share(count(pairs, |one| one.is_listed), pairs.len()),
+        share(merged, pairs.len()),
+        share(rightly, merged),
+    ]
+}
+
+const COLUMNS: [&str; 5] =
+    ["pairs", "best pose right", "right pose listed", "merged", "right of the merged"];
+
+fn header(first: &str) -> Vec<String> {
+    [first].iter().chain(&COLUMNS).map(|&name| name.to_owned()).collect()
+}
+
+pub(super) fn by_kind(judged: &[Judged], drawn: usize) -> Table {
+    let row = |name: &str, holds: &dyn Fn(FloorKind) -> bool| {
+        let pairs = to_merge(judged, |one| holds(one.kind));
+        [vec![name.to_owned()], columns(&pairs)].concat()
+    };
+    let mut rows: Vec<Vec<String>> =
+        FloorKind::ALL.into_iter().map(|kind| row(kind.name(), &|other| other == kind)).collect();
+    rows.push(row("all that do not repeat", &|kind| !kind.repeats()));
+    rows.push(row("all that repeat", &FloorKind::repeats));
+    let missing = drawn - judged.len();
+    Table {
+        caption: format!(
+            "Pairs to merge, by the kind of floor; shares with their 95 % interval. Of {drawn} \
+             pairs drawn, {missing} did not come about: the floor has no two parts as wanted."
+        ),
+        header: header("floor"),
+        rows,
+    }
+}
+
+pub(super) fn by_overlap(judged: &[Judged]) -> Table {
+    let rows = BANDS.map(|[low, high]| {
+        let pairs = to_merge(judged, |one| {
+            let overlap = one.overlap.unwrap_or(0.0);
+            !one.kind.repeats() && overlap >= low && overlap < high
+        });
+        [vec![format!("{low:.2}–{high:.2}")], columns(&pairs)].concat()
+    });
+    Table {
+        caption: "Pairs to merge by overlap (of the smaller map), floors that do not repeat."
+            .to_owned(),
+        header: header("overlap"),
+        rows: rows.to_vec(),
+    }
+}
+
+pub(super) fn to_refuse(judged: &[Judged]) -> Table {
+    let row = |name: &str, holds: &dyn Fn(&Judged) -> bool| {
+        let pairs: Vec<&Judged> =
+            judged.iter().filter(|one| one.overlap.is_none() && holds(one)).collect();
+        let merged = share(count(&pairs, Judged::is_merged), pairs.len());
+        vec![name.to_owned(), pairs.len().to_string(), merged]
+    };
+    let apart = |one: &Judged| one.relation == Relation::Apart;
+    Table {
+        caption: "Pairs to refuse, and how many were merged all the same.".to_owned(),
+        header: ["maps", "pairs", "merged"].map(str::to_owned).to_vec(),
+        rows: vec![
+            row("two floors", &|one| !apart(one)),
+            row("two parts of a floor that does not repeat", &|one| {
+                apart(one) && !one.kind.repeats()
+            }),
+            row("all of these", &Judged::is_decidable),
+            row("two parts of a floor that repeats", &|one| apart(one) && one.kind.repeats()),
+        ],
+    }
+}

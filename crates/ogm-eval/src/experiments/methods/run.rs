@@ -1,0 +1,88 @@
+//! X4 run: every variant on its share of the worlds.
+
+use std::time::Instant;
+
+use grid_match::{MatchParams, match_maps};
+use ogm_core::Se2;
+use ogm_merge::{RobotMap, align};
+use rayon::iter::{IntoParallelIterator, ParallelIterator};
+
+use super::record::{MATCH, REGIMES, case_name, case_without_tags};
+use super::variants::VARIANTS;
+use crate::cases::worlds::{Building, World};
+use crate::judge::Overlap;
+use crate::measured::{Run, RunResult, Timing};
+use crate::options::Options;
+
+/// How many of the variants, from the front, are the defaults of #1, #2 and #3.
+const DEFAULT_VARIANTS: usize = 3;
+
+/// Worlds of plan A, shown apart.
+const PLAN_A_WORLDS: u64 = 10;
+
+/// Runs every variant on its share of the worlds.
+pub(super) fn run(options: &Options) -> anyhow::Result<(Vec<Run>, Vec<Timing>)> {
+    let worlds = options.count(12, 200);
+    let of_variants = options.runs.map_or(if options.quick { 3 } else { 50 }, |runs| runs.min(50));
+    let of_plan_a = PLAN_A_WORLDS.min(options.count(3, 200));
+    options.watch.begin("X4 worlds", worlds + of_plan_a);
+    let run_worlds = |building, count: u64, of_variants: u64| {
+        let measured = (0..count).into_par_iter().map(|index| {
+            let measured = run_world(building, options.seed + index, index < of_variants);
+            options.watch.step();
+            measured
+        });
+        measured.collect::<anyhow::Result<Vec<(Vec<Run>, Vec<Timing>)>>>()
+    };
+    let random = run_worlds(Building::Random, worlds, of_variants.into())?;
+    let plan_a = run_worlds(Building::PlanA, of_plan_a, of_plan_a)?;
+    options.watch.end();
+    let (runs, timings): (Vec<_>, Vec<_>) = random.into_iter().chain(plan_a).unzip();
+    Ok((runs.concat(), timings.concat()))
+}
+
+fn run_world(
+    building: Building,
+    seed: u64,
+    all_variants: bool,
+) -> anyhow::Result<(Vec<Run>, Vec<Timing>)> {
+    let world = World::simulate(building, seed)?;
+    let overlap =
+        Overlap::new(&world.pair.target.map, &world.pair.source.map, world.target_from_source());
+    let errors = Some(|target_from_source: &Se2| overlap.errors(target_from_source));
+    let variants = if all_variants { &VARIANTS[..] } else { &VARIANTS[..DEFAULT_VARIANTS] };
+    let (mut runs, mut timings) = (Vec::new(), Vec::new());
+    for sigma_px in REGIMES {
+        let [target_tags, source_tags] = world.displaced_tags(sigma_px);
+        let target = RobotMap { map: &world.pair.target.map, tags: &target_tags };
+        let source = RobotMap { map: &world.pair.source.map, tags: &source_tags };
+        for variant in variants {
+            let params = (variant.params)(&world);
+            let start = Instant::now();
+            let report = align(variant.method, &target, &source, &params)?;
+            let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+            let result = RunResult::of(&report.outcome, errors);
+            runs.push(Run {
+                experiment: "X4",
+                case: case_name(building, sigma_px),
+                variant: variant.name.to_owned(),
+                seed,
+                result,
+            });
+            timings.push(Timing { experiment: "X4", step: variant.name, seed, milliseconds });
+        }
+    }
+    let start = Instant::now();
+    let (target, source) = (&world.pair.target.map, &world.pair.source.map);
+    let report = match_maps(target, source, &MatchParams::default())?;
+    let milliseconds = start.elapsed().as_secs_f64() * 1e3;
+    runs.push(Run {
+        experiment: "X4",
+        case: case_without_tags(building),
+        variant: MATCH.to_owned(),
+        seed,
+        result: RunResult::of(&report.outcome, errors),
+    });
+    timings.push(Timing { experiment: "X4", step: MATCH, seed, milliseconds });
+    Ok((runs, timings))
+}

@@ -1,0 +1,147 @@
+//! The rows of X4: each method in its forms, corrected and as printed.
+
+use icp2d::{IcpParams, Pairing};
+use nalgebra::Point2;
+use ogm_core::{Length, OccupancyGrid};
+use ogm_merge::{Anchor, Method, RfidParams};
+use rfid_loc::{RotationCentre, TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation};
+
+use crate::cases::worlds::World;
+
+/// A row of the table: a method in one of its forms.
+pub(super) struct Variant {
+    pub(super) name: &'static str,
+    pub(super) method: Method,
+    pub(super) params: fn(&World) -> RfidParams,
+}
+
+/// The defaults first.
+pub(super) const VARIANTS: [Variant; 16] = [
+    Variant { name: "#1", method: Method::Rfid1, params: |_| RfidParams::default() },
+    Variant { name: "#2", method: Method::Rfid2, params: |_| RfidParams::default() },
+    Variant { name: "#3", method: Method::Rfid3, params: |_| RfidParams::default() },
+    Variant {
+        name: "#1 with tags 1 and 2",
+        method: Method::Rfid1,
+        params: |_| tag_only(TagOnlyParams { rotation: TagOnlyRotation::P2, ..Default::default() }),
+    },
+    Variant {
+        name: "#1b least squares",
+        method: Method::Rfid1b,
+        params: |_| RfidParams::default(),
+    },
+    Variant {
+        name: "#1 rotation as printed",
+        method: Method::Rfid1,
+        params: |_| {
+            tag_only(TagOnlyParams { rotation: TagOnlyRotation::AsPrinted, ..Default::default() })
+        },
+    },
+    Variant {
+        name: "#1 translation as printed",
+        method: Method::Rfid1,
+        params: |_| {
+            tag_only(TagOnlyParams {
+                translation: TagOnlyTranslation::AsPrinted,
+                ..Default::default()
+            })
+        },
+    },
+    Variant {
+        name: "#1 translation by unrotated centroids, sign repaired",
+        method: Method::Rfid1,
+        params: |_| {
+            tag_only(TagOnlyParams {
+                translation: TagOnlyTranslation::SignFixed,
+                ..Default::default()
+            })
+        },
+    },
+    Variant {
+        name: "#1 all as printed",
+        method: Method::Rfid1,
+        params: |_| {
+            tag_only(TagOnlyParams {
+                rotation: TagOnlyRotation::AsPrinted,
+                translation: TagOnlyTranslation::AsPrinted,
+                ..Default::default()
+            })
+        },
+    },
+    Variant {
+        name: "#1 cropped image, turned about its centre, sign repaired",
+        method: Method::Rfid1,
+        params: |world| {
+            tag_only(TagOnlyParams {
+                translation: TagOnlyTranslation::SignFixed,
+                frame: TagFrame::Cropped {
+                    target_corner: corner(&world.pair.target.map),
+                    source_corner: corner(&world.pair.source.map),
+                },
+                centre: RotationCentre::At(image_centre(&world.pair.source.map)),
+                ..Default::default()
+            })
+        },
+    },
+    Variant {
+        name: "#2 printed weights",
+        method: Method::Rfid2,
+        params: |_| RfidParams {
+            vector: ogm_vector::Params {
+                weights: ogm_vector::Weights::AsPrinted,
+                ..Default::default()
+            },
+            ..Default::default()
+        },
+    },
+    Variant {
+        name: "#2 all three tags carry the translation",
+        method: Method::Rfid2,
+        params: |_| RfidParams { anchor: Anchor::AllTags, ..Default::default() },
+    },
+    Variant {
+        name: "#3 from where #2 ends",
+        method: Method::Rfid3,
+        params: |_| icp(IcpParams::default()),
+    },
+    Variant {
+        name: "#3 reciprocal only",
+        method: Method::Rfid3,
+        params: |_| icp(IcpParams { pairing: Pairing::Reciprocal, ..Default::default() }),
+    },
+    Variant {
+        name: "#3 one-way, gate to 5 px",
+        method: Method::Rfid3,
+        params: |_| icp(IcpParams { pairing: Pairing::OneWay, ..Default::default() }),
+    },
+    Variant {
+        name: "#3 rectangle only, no gate",
+        method: Method::Rfid3,
+        params: |_| {
+            icp(IcpParams {
+                pairing: Pairing::OneWay,
+                initial_gate: Length::metres(f64::INFINITY),
+                final_gate: Length::metres(f64::INFINITY),
+                ..Default::default()
+            })
+        },
+    },
+];
+
+fn tag_only(tag_only: TagOnlyParams) -> RfidParams {
+    RfidParams { tag_only, ..Default::default() }
+}
+
+/// Refinement from where #2 ends, as the paper has it.
+fn icp(icp: IcpParams) -> RfidParams {
+    RfidParams { icp, start: None, ..Default::default() }
+}
+
+fn corner(map: &OccupancyGrid) -> Point2<f64> {
+    map.frame().point_from_cells(Point2::origin())
+}
+
+fn image_centre(map: &OccupancyGrid) -> Point2<f64> {
+    let half = Point2::new(map.width() as f64 / 2.0, map.height() as f64 / 2.0);
+    map.frame().point_from_cells(half)
+}

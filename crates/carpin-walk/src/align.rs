@@ -1,6 +1,6 @@
 //! The front door: walks over the transforms between two maps.
 
-use ogm_core::{GridError, OccupancyGrid, Outcome, Progress, Refusal, Se2, Steps};
+use ogm_core::{OccupancyGrid, Outcome, Progress, Refusal, Se2, Steps};
 
 use crate::walk::{Budget, Walk, walk};
 use crate::{Around, End, MapDistance, Params, Rules, Sample, SearchBox, WalkError};
@@ -67,10 +67,7 @@ fn search<R: Rules + Sync + ?Sized>(
     progress.go_on(0.0)?;
     let mut distance = MapDistance::new(target, source, &params.distance)?;
     let start = start_target_from_source;
-    if !start.is_finite() {
-        let (x, y, theta) = (start.x(), start.y(), start.theta());
-        return Err(WalkError::Grid(GridError::NonFiniteTransform { x, y, theta }));
-    }
+    start.check_finite()?;
     let place = distance.placement(&start);
     let [width, height] = distance.mean_size();
     let space = SearchBox {

@@ -31,16 +31,11 @@ impl ClassMap {
         let count = |code| codes.cells().iter().filter(|&&cell| cell == code).count();
         let counts = [count(1), count(2)];
         let size = [codes.width(), codes.height()];
-        let (mut low, mut high) = (size, [0, 0]);
-        for (index, _) in codes.indexed().filter(|&(_, &code)| code != NEITHER) {
-            for (axis, at) in [index.column, index.row].into_iter().enumerate() {
-                low[axis] = low[axis].min(at);
-                high[axis] = high[axis].max(at + 1);
-            }
-        }
-        if counts == [0, 0] {
-            (low, high) = ([0, 0], [1, 1]);
-        }
+        // One cell if there is none of either class.
+        let (low, high) =
+            codes.bounds_of(|&code| code != NEITHER).map_or(([0, 0], [1, 1]), |(low, high)| {
+                ([low.column, low.row], [high.column + 1, high.row + 1])
+            });
         let rows = codes.rows().skip(low[1]).take(high[1] - low[1]);
         let cropped = rows.flat_map(|row| &row[low[0]..high[0]]).copied().collect();
         let cropped = Grid::new(high[0] - low[0], high[1] - low[1], cropped).unwrap_or(codes);

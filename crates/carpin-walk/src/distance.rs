@@ -65,16 +65,7 @@ impl MapDistance {
         params: &DistanceParams,
     ) -> Result<Self, WalkError> {
         params.check()?;
-        if !target.frame().same_resolution(source.frame()) {
-            return Err(WalkError::Grid(GridError::ResolutionMismatch {
-                a_width: target.width(),
-                a_height: target.height(),
-                a_resolution: target.frame().resolution(),
-                b_width: source.width(),
-                b_height: source.height(),
-                b_resolution: source.frame().resolution(),
-            }));
-        }
+        target.check_same_resolution(source)?;
         let classes = |map: &OccupancyGrid| {
             ClassMap::new(&map.cells().map(|&cell| params.thresholds.classify(cell)))
         };
@@ -95,15 +86,8 @@ impl MapDistance {
     /// # Errors
     /// A transform that is not finite.
     pub fn psi(&mut self, target_from_source: &Se2) -> Result<Dissimilarity, GridError> {
-        let motion = target_from_source;
-        if !motion.is_finite() {
-            return Err(GridError::NonFiniteTransform {
-                x: motion.x(),
-                y: motion.y(),
-                theta: motion.theta(),
-            });
-        }
-        Ok(self.psi_at(&self.placement(motion)))
+        target_from_source.check_finite()?;
+        Ok(self.psi_at(&self.placement(target_from_source)))
     }
 
     /// ψ where the source's reference point is moved to `placement`.

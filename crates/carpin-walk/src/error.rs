@@ -1,6 +1,6 @@
 //! What cannot be meant as a search.
 
-use ogm_core::{Cancelled, GridError};
+use ogm_core::{Cancelled, GridError, ParameterError};
 
 /// Maps, a start or parameters that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -31,13 +31,6 @@ pub enum WalkError {
         reach_turn: f64,
     },
     /// A parameter outside its range.
-    #[error("{name} must be {requirement}, got {value}")]
-    InvalidParameter {
-        /// Which.
-        name: &'static str,
-        /// What it must be.
-        requirement: &'static str,
-        /// What was given.
-        value: f64,
-    },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
 }

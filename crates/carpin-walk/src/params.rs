@@ -2,9 +2,7 @@
 
 use std::f64::consts::PI;
 
-use ogm_core::ClassThresholds;
-
-use crate::WalkError;
+use ogm_core::{ClassThresholds, ParameterError, require};
 
 /// How two maps are compared.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -47,7 +45,7 @@ fn by_sign() -> ClassThresholds {
 }
 
 impl DistanceParams {
-    pub(crate) fn check(&self) -> Result<(), WalkError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let padding = self.padding;
         require((0.0..=2.0).contains(&padding), "padding", "in [0, 2]", padding)?;
         if let Objective::Overlap { min_share } = self.objective {
@@ -104,19 +102,10 @@ impl Default for Params {
 }
 
 impl Params {
-    pub(crate) fn check(&self) -> Result<(), WalkError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let reach = self.reach;
         require(reach.is_finite() && reach >= 0.0, "reach", "finite and at least 0", reach)?;
         require(self.turn >= 0.0, "turn", "an angle of at least 0", self.turn)?;
         require(self.walks >= 1, "walks", "at least 1", self.walks as f64)
     }
-}
-
-fn require(
-    holds: bool,
-    name: &'static str,
-    requirement: &'static str,
-    value: f64,
-) -> Result<(), WalkError> {
-    if holds { Ok(()) } else { Err(WalkError::InvalidParameter { name, requirement, value }) }
 }

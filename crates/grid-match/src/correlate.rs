@@ -28,17 +28,19 @@ pub(crate) struct Surface<'a> {
 }
 
 impl Correlator {
-    /// A correlator for `first` with maps of up to `width` × `height` coarse cells, which must
-    /// overlap by at least `overlap` cells to either axis.
+    /// A correlator for `first` with maps of about `width` × `height` coarse cells, which must
+    /// overlap by at least `overlap` cells to either axis, and of at most `room`.
     pub(crate) fn new(
         first: &CorrelationPlanes,
         [width, height]: [usize; 2],
+        room: [usize; 2],
         overlap: usize,
     ) -> Self {
         let columns = fast_length((first.width + width).saturating_sub(overlap));
         let rows = fast_length((first.height + height).saturating_sub(overlap));
         let (columns, rows) =
             (columns.max(first.width).max(width), rows.max(first.height).max(height));
+        let (columns, rows) = (columns.max(room[0]), rows.max(room[1]));
         let mut planner = FftPlanner::new();
         let mut both =
             |length| [planner.plan_fft_forward(length), planner.plan_fft_inverse(length)];
@@ -183,7 +185,7 @@ mod tests {
         fn every_shift_scores_what_the_sum_over_its_cells_does(
             first in planes(), second in planes(),
         ) {
-            let mut correlator = Correlator::new(&first, [second.width, second.height], 0);
+            let mut correlator = Correlator::new(&first, [second.width, second.height], [0, 0], 0);
             let surface = correlator.correlate(&second);
             let (columns, rows) = (surface.columns, surface.rows);
             let scale = 1.0 / (columns * rows) as f32;

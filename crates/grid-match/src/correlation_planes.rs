@@ -95,10 +95,7 @@ impl CorrelationPlanes {
     pub(crate) fn turned(map: &PreparedMap, free: &FreeShare, theta: f64, side: Side) -> Self {
         let cell = free.cell;
         let turn = Rotation2::new(theta);
-        let [low, high] = turned_box(map, theta);
-        let origin = low.coords - Vector2::repeat(2.0 * cell);
-        let size = (high.coords - origin) / cell;
-        let (width, height) = (floor_index(size.x) + 3, floor_index(size.y) + 3);
+        let (origin, [width, height]) = turned_lattice(map, theta, cell);
 
         let walls = wall_share(map, theta, origin, cell, [width, height]);
         let near_wall = grown(&walls, width);
@@ -117,6 +114,19 @@ impl CorrelationPlanes {
         }
         Self { width, height, origin, packed }
     }
+}
+
+/// Lower-left corner, columns and rows of the cells of `cell` metres that hold the known area
+/// turned by `theta`, with a margin.
+pub(crate) fn turned_lattice(
+    map: &PreparedMap,
+    theta: f64,
+    cell: f64,
+) -> (Vector2<f64>, [usize; 2]) {
+    let [low, high] = turned_box(map, theta);
+    let origin = low.coords - Vector2::repeat(2.0 * cell);
+    let size = (high.coords - origin) / cell;
+    (origin, [floor_index(size.x) + 3, floor_index(size.y) + 3])
 }
 
 /// The corners of the known area turned by `theta`.

@@ -1,6 +1,6 @@
 //! The known part of a map, its cells classified.
 
-use ogm_core::{CellClass, ClassThresholds, Grid, OccupancyGrid, Se2};
+use ogm_core::{CellClass, CellIndex, ClassThresholds, OccupancyGrid, Se2};
 
 use crate::lattice::{Lattice, floor_index};
 
@@ -32,7 +32,12 @@ impl Crop {
             CellClass::Free => State::Free,
             CellClass::Undecided | CellClass::Unknown => State::Unknown,
         });
-        let [left, bottom, width, height] = known_box(&classes);
+        let bounds = classes.bounds_of(|&cell| cell != State::Unknown);
+        let origin = CellIndex { column: 0, row: 0 };
+        // One cell if nothing is known.
+        let (low, high) = bounds.unwrap_or((origin, origin));
+        let [left, bottom] = [low.column, low.row];
+        let (width, height) = (high.column - left + 1, high.row - bottom + 1);
         let mut factor = 1;
         while (width / factor) * (height / factor) > MOST_CELLS {
             factor *= 2;
@@ -58,25 +63,5 @@ impl Crop {
         let inset = border as f64 * resolution;
         let corner = Se2::new(left as f64 * fine - inset, bottom as f64 * fine - inset, 0.0);
         Self { state, lattice, map_from_local: origin * corner }
-    }
-}
-
-/// Left, bottom, width and height of the known cells; one cell if there is none.
-fn known_box(classes: &Grid<State>) -> [usize; 4] {
-    let known = |cell: &State| *cell != State::Unknown;
-    let (mut left, mut right) = (usize::MAX, 0);
-    let (mut bottom, mut top) = (usize::MAX, 0);
-    for (row, cells) in classes.rows().enumerate() {
-        let Some(first) = cells.iter().position(known) else { continue };
-        let last = cells.iter().rposition(known).unwrap_or(first);
-        left = left.min(first);
-        right = right.max(last);
-        bottom = bottom.min(row);
-        top = row;
-    }
-    if bottom == usize::MAX {
-        [0, 0, 1, 1]
-    } else {
-        [left, bottom, right - left + 1, top - bottom + 1]
     }
 }

@@ -3,7 +3,8 @@
 use std::cmp::Ordering;
 
 use ogm_core::{
-    Cancelled, OccupancyGrid, Outcome, Progress, Refusal, RelativePose, Se2, Stage, Steps,
+    Cancelled, OccupancyGrid, Outcome, ParameterError, Progress, Refusal, RelativePose, Se2, Stage,
+    Steps, require,
 };
 
 use crate::MatchError;
@@ -121,7 +122,7 @@ pub fn score_pose(
     source: &PreparedMap,
     target_from_source: &Se2,
 ) -> Result<Evidence, MatchError> {
-    check_pose(target_from_source)?;
+    target_from_source.check_finite()?;
     let target_local_from_source_local =
         target.map_from_local.inverse() * *target_from_source * source.map_from_local;
     let reach = Reach::at(target.resolution().max(source.resolution()));
@@ -200,34 +201,18 @@ fn outcome(hypotheses: &[Hypothesis], resolution: f64, params: &MatchParams) -> 
 
 impl MatchParams {
     fn check(&self) -> Result<(), MatchError> {
-        let in_unit = |value: f64| value > 0.0 && value <= 1.0;
-        check("accept", "above 0 and at most 1", self.accept, in_unit(self.accept))?;
-        let not_negative = |value: f64| value.is_finite() && value >= 0.0;
-        let requirement = "finite and not below 0";
-        check("min_wall_m", requirement, self.min_wall_m, not_negative(self.min_wall_m))?;
+        let accept = self.accept;
+        require(accept > 0.0 && accept <= 1.0, "accept", "above 0 and at most 1", accept)?;
+        not_negative("min_wall_m", self.min_wall_m)?;
         if let Some(prior) = &self.prior {
-            check_pose(&prior.target_from_source)?;
-            check("prior.sigma_m", requirement, prior.sigma_m, not_negative(prior.sigma_m))?;
-            check("prior.sigma_rad", requirement, prior.sigma_rad, not_negative(prior.sigma_rad))?;
+            prior.target_from_source.check_finite()?;
+            not_negative("prior.sigma_m", prior.sigma_m)?;
+            not_negative("prior.sigma_rad", prior.sigma_rad)?;
         }
         Ok(())
     }
 }
 
-fn check(
-    name: &'static str,
-    requirement: &'static str,
-    value: f64,
-    holds: bool,
-) -> Result<(), MatchError> {
-    if holds { Ok(()) } else { Err(MatchError::InvalidParameter { name, requirement, value }) }
-}
-
-fn check_pose(target_from_source: &Se2) -> Result<(), MatchError> {
-    let pose = target_from_source;
-    if pose.is_finite() {
-        Ok(())
-    } else {
-        Err(MatchError::NonFinitePose { x: pose.x(), y: pose.y(), theta: pose.theta() })
-    }
+fn not_negative(name: &'static str, value: f64) -> Result<(), ParameterError> {
+    require(value.is_finite() && value >= 0.0, name, "finite and not below 0", value)
 }

@@ -5,7 +5,7 @@ use ogm_core::{Cancelled, Progress, Se2, Steps, wrap_angle};
 
 use crate::bounds::Bounds;
 use crate::correlate::{Correlator, Surface};
-use crate::correlation_planes::{CorrelationPlanes, FreeShare, Side, turned_box};
+use crate::correlation_planes::{CorrelationPlanes, FreeShare, Side, turned_box, turned_lattice};
 use crate::lattice::floor_index;
 use crate::prepare::PreparedMap;
 use crate::work::Work;
@@ -52,14 +52,17 @@ impl<'a> CoarsePair<'a> {
         work: &mut Work,
         progress: &dyn Progress,
     ) -> Result<Vec<Candidate>, Cancelled> {
-        let mut size = [0; 2];
+        let (mut size, mut room) = ([0; 2], [0; 2]);
         for &theta in rotations {
             let [low, high] = turned_box(self.second, theta);
             let extent = (high - low) / self.cell;
             size = [size[0].max(floor_index(extent.x) + 5), size[1].max(floor_index(extent.y) + 5)];
+            // By rounding a turned map may have one cell more than that.
+            let (_, [columns, rows]) = turned_lattice(self.second, theta, self.cell);
+            room = [room[0].max(columns), room[1].max(rows)];
         }
         let overlap = floor_index(LEAST_OVERLAP_M / self.cell);
-        let mut correlator = Correlator::new(&self.first_planes, size, overlap);
+        let mut correlator = Correlator::new(&self.first_planes, size, room, overlap);
         let done = Steps::new(progress, rotations.len());
         let mut found = Vec::new();
         for &theta in rotations {

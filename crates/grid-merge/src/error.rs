@@ -10,16 +10,12 @@ pub enum FusionError {
     #[error("nothing to merge: at least one map is needed")]
     NoMaps,
     /// A pose with a NaN or infinite part.
-    #[error("the pose of map {map} must be finite, got ({x}, {y}, {theta})")]
+    #[error("the pose of map {map}: {cause}")]
     NonFinitePose {
         /// Which map, from 0.
         map: usize,
-        /// Translation x, metres.
-        x: f64,
-        /// Translation y, metres.
-        y: f64,
-        /// Rotation, radians.
-        theta: f64,
+        /// What is wrong with it.
+        cause: GridError,
     },
     /// Forward mapping would scatter the cells of a map over a finer output.
     #[error(

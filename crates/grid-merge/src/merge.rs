@@ -136,16 +136,7 @@ fn lattice_of(maps: &[PlacedMap<'_>], params: &FusionParams) -> Result<GridFrame
 }
 
 pub(crate) fn check_pose(map: usize, reference_from_map: &Se2) -> Result<(), FusionError> {
-    if reference_from_map.is_finite() {
-        Ok(())
-    } else {
-        Err(FusionError::NonFinitePose {
-            map,
-            x: reference_from_map.x(),
-            y: reference_from_map.y(),
-            theta: reference_from_map.theta(),
-        })
-    }
+    reference_from_map.check_finite().map_err(|cause| FusionError::NonFinitePose { map, cause })
 }
 
 /// Forward mapping onto a finer lattice would leave more gaps than cells.

@@ -28,7 +28,7 @@ pub fn align(
     params: &IcpParams,
 ) -> Result<Outcome<Alignment>, IcpError> {
     params.check()?;
-    check_start(&init_target_from_source)?;
+    init_target_from_source.check_finite()?;
     let start = init_target_from_source;
     let need = params.min_pairs;
     let have = target.points().len().min(source.points().len());
@@ -61,17 +61,6 @@ pub fn align(
     let mut matcher =
         Matcher::new(&target, &source, params.pairing, params.min_side_cosine, reciprocity);
     Ok(search.run(&mut matcher).into())
-}
-
-pub(crate) fn check_start(target_from_source: &Se2) -> Result<(), IcpError> {
-    if target_from_source.is_finite() {
-        return Ok(());
-    }
-    Err(IcpError::NonFiniteStart {
-        x: target_from_source.x(),
-        y: target_from_source.y(),
-        theta: target_from_source.theta(),
-    })
 }
 
 /// What stays the same over the iterations.

@@ -1,5 +1,7 @@
 //! What cannot be meant as an alignment problem.
 
+use ogm_core::{GridError, ParameterError};
+
 /// Points, a start or parameters that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -33,23 +35,9 @@ pub enum IcpError {
         spacing: f64,
     },
     /// A start with a NaN or infinite part.
-    #[error("the start must be finite, got ({x}, {y}, {theta})")]
-    NonFiniteStart {
-        /// Translation x, metres.
-        x: f64,
-        /// Translation y, metres.
-        y: f64,
-        /// Rotation, radians.
-        theta: f64,
-    },
+    #[error(transparent)]
+    Grid(#[from] GridError),
     /// A parameter outside its range.
-    #[error("{name} must be {requirement}, got {value}")]
-    InvalidParameter {
-        /// Field of [`IcpParams`](crate::IcpParams).
-        name: &'static str,
-        /// What it must be.
-        requirement: &'static str,
-        /// What was given.
-        value: f64,
-    },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
 }

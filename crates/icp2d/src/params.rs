@@ -1,8 +1,6 @@
 //! The knobs of the alignment.
 
-use ogm_core::Length;
-
-use crate::IcpError;
+use ogm_core::{Length, ParameterError, require};
 
 /// Which nearest neighbours count as the same piece of wall.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
@@ -120,7 +118,7 @@ impl IcpParams {
         }
     }
 
-    pub(crate) fn check(&self) -> Result<(), IcpError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let lengths = [
             ("section_margin", self.section_margin),
             ("initial_gate", self.initial_gate),
@@ -159,13 +157,4 @@ impl IcpParams {
         }
         Ok(())
     }
-}
-
-pub(crate) fn require(
-    holds: bool,
-    name: &'static str,
-    requirement: &'static str,
-    value: f64,
-) -> Result<(), IcpError> {
-    if holds { Ok(()) } else { Err(IcpError::InvalidParameter { name, requirement, value }) }
 }

@@ -1,10 +1,8 @@
 //! A better start where the given one lies outside the basin of the alignment.
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::{Length, Outcome, Refusal, Se2};
+use ogm_core::{Length, Outcome, Refusal, Se2, require};
 
-use crate::align::check_start;
-use crate::params::require;
 use crate::sided::SidedIndex;
 use crate::{IcpError, WallPoint, WallPoints};
 
@@ -82,7 +80,7 @@ pub fn search_start(
     for (name, share) in [("min_gain", params.min_gain), ("far_penalty", params.far_penalty)] {
         require((0.0..=1.0).contains(&share), name, "in [0, 1]", share)?;
     }
-    check_start(&init_target_from_source)?;
+    init_target_from_source.check_finite()?;
 
     let index = SidedIndex::new(target);
     let Some(index) = index.filter(|_| !source.points().is_empty()) else {

@@ -34,19 +34,29 @@ pub enum GridError {
         /// Cells that were given.
         cells: usize,
     },
-    /// The resolution or the origin of a frame is not a usable number.
+    /// A resolution outside the accepted range, or no number.
     #[error(
-        "a grid frame needs a finite resolution above 0 and a finite origin, got {resolution} m a cell at ({x}, {y}, {theta})"
+        "a resolution of {resolution:?} m a cell is no map's: {least} to {most} m are accepted"
     )]
-    InvalidFrame {
+    Resolution {
         /// Metres a cell.
         resolution: f64,
+        /// Least metres a cell.
+        least: f64,
+        /// Most metres a cell.
+        most: f64,
+    },
+    /// An origin too far from zero, or no number.
+    #[error(
+        "an origin at ({x:?}, {y:?}) m is too far away: at most {limit} m along either axis are accepted"
+    )]
+    Origin {
         /// Origin x, metres.
         x: f64,
         /// Origin y, metres.
         y: f64,
-        /// Origin yaw, radians.
-        theta: f64,
+        /// Largest |x| and |y|, metres.
+        limit: f64,
     },
     /// Two grids that must share a lattice do not.
     #[error(

@@ -1,5 +1,7 @@
 //! Where the cells of a grid lie.
 
+use std::ops::RangeInclusive;
+
 use nalgebra::Point2;
 
 use crate::{CellIndex, GridError, Se2};
@@ -26,22 +28,35 @@ pub struct GridFrame {
 }
 
 impl GridFrame {
+    /// Accepted metres a cell: 0.1 mm to 1 km.
+    ///
+    /// Below, nothing is a map of a building, and kernels whose size is given in metres become
+    /// unbounded numbers of cells; above, a cell is larger than any building.
+    pub const RESOLUTIONS: RangeInclusive<f64> = 1e-4..=1e3;
+
+    /// Largest accepted |x| and |y| of an origin, metres: 10 000 km.
+    ///
+    /// A quarter of the earth's circumference, so that origins in metres of a UTM zone fit; an
+    /// `f64` still keeps nanometres there.
+    pub const MAX_ORIGIN: f64 = 1e7;
+
     /// A frame of `resolution` metres a cell, `map_from_grid` being the pose of the lower-left
     /// corner of cell (0, 0).
     ///
     /// # Errors
-    /// A resolution that is not finite and positive, or a non-finite origin.
+    /// A resolution outside [`RESOLUTIONS`](Self::RESOLUTIONS), an origin beyond
+    /// [`MAX_ORIGIN`](Self::MAX_ORIGIN), or a yaw that is not finite.
     pub fn new(resolution: f64, map_from_grid: Se2) -> Result<Self, GridError> {
-        if resolution.is_finite() && resolution > 0.0 && map_from_grid.is_finite() {
-            Ok(Self { resolution, map_from_grid })
-        } else {
-            Err(GridError::InvalidFrame {
-                resolution,
-                x: map_from_grid.x(),
-                y: map_from_grid.y(),
-                theta: map_from_grid.theta(),
-            })
+        if !Self::RESOLUTIONS.contains(&resolution) {
+            let (least, most) = (*Self::RESOLUTIONS.start(), *Self::RESOLUTIONS.end());
+            return Err(GridError::Resolution { resolution, least, most });
         }
+        let (x, y, limit) = (map_from_grid.x(), map_from_grid.y(), Self::MAX_ORIGIN);
+        if !(x.abs() <= limit && y.abs() <= limit) {
+            return Err(GridError::Origin { x, y, limit });
+        }
+        map_from_grid.check_finite()?;
+        Ok(Self { resolution, map_from_grid })
     }
 
     /// Metres a cell.
@@ -85,6 +100,8 @@ impl GridFrame {
     }
 
     /// The frame of the same lattice whose cell (0, 0) is this one's cell (`column`, `row`).
+    ///
+    /// Of a lattice near the accepted limit it may lie beyond it.
     #[must_use]
     pub fn shifted(&self, column: i64, row: i64) -> Self {
         let corner = Point2::new(column as f64, row as f64) * self.resolution;
@@ -134,12 +151,29 @@ mod tests {
 
     #[test]
     fn frames_that_cannot_be_meant_are_errors() {
-        for resolution in [0.0, -0.05, f64::NAN, f64::INFINITY] {
+        for resolution in [0.0, -0.05, f64::NAN, f64::INFINITY, 0.99e-4, 1001.0, 1e300, 1e-9] {
             let frame = GridFrame::new(resolution, Se2::identity());
-            assert!(matches!(frame, Err(GridError::InvalidFrame { .. })), "{resolution}");
+            assert!(matches!(frame, Err(GridError::Resolution { .. })), "{resolution}");
         }
-        let frame = GridFrame::new(0.05, Se2::new(f64::NAN, 0.0, 0.0));
-        assert!(matches!(frame, Err(GridError::InvalidFrame { .. })));
+        for far in [f64::NAN, f64::NEG_INFINITY, 1.01e7, -1e25] {
+            for origin in [Se2::new(far, 0.0, 0.0), Se2::new(0.0, far, 0.0)] {
+                let frame = GridFrame::new(0.05, origin);
+                assert!(matches!(frame, Err(GridError::Origin { .. })), "{far}");
+            }
+        }
+        let frame = GridFrame::new(0.05, Se2::new(0.0, 0.0, f64::NAN));
+        assert!(matches!(frame, Err(GridError::NonFiniteTransform { .. })));
+    }
+
+    #[test]
+    fn the_accepted_ranges_hold_their_ends_and_errors_name_value_and_range() {
+        for resolution in [1e-4, 1e3] {
+            GridFrame::new(resolution, Se2::new(1e7, -1e7, 1.0)).unwrap();
+        }
+        let error = GridFrame::new(1e300, Se2::identity()).unwrap_err().to_string();
+        assert!(error.contains("1e300") && error.contains("0.0001 to 1000 m"), "{error}");
+        let error = GridFrame::new(0.05, Se2::new(2e7, 0.0, 0.0)).unwrap_err().to_string();
+        assert!(error.contains("(20000000.0, 0.0)") && error.contains("10000000 m"), "{error}");
     }
 
     #[test]

@@ -111,6 +111,23 @@ impl<T> Grid<T> {
         Grid { width: self.width, cells: self.cells.iter().map(f).collect() }
     }
 
+    /// The lowest and highest column and row, both inclusive, of the cells that `counts` picks.
+    #[must_use]
+    pub fn bounds_of(&self, counts: impl Fn(&T) -> bool) -> Option<(CellIndex, CellIndex)> {
+        let mut bounds: Option<(CellIndex, CellIndex)> = None;
+        for (row, cells) in self.rows().enumerate() {
+            let Some(first) = cells.iter().position(&counts) else { continue };
+            let last = cells.iter().rposition(&counts).unwrap_or(first);
+            let (low, high) = bounds.map_or((first, last), |(low, high)| {
+                (low.column.min(first), high.column.max(last))
+            });
+            let lowest = bounds.map_or(row, |(low, _)| low.row);
+            bounds =
+                Some((CellIndex { column: low, row: lowest }, CellIndex { column: high, row }));
+        }
+        bounds
+    }
+
     /// Every cell with its index, row-major from the lowest row.
     pub fn indexed(&self) -> impl Iterator<Item = (CellIndex, &T)> {
         self.rows().enumerate().flat_map(|(row, cells)| {
@@ -145,6 +162,16 @@ mod tests {
         assert!(matches!(Grid::filled(usize::MAX, 2, 0_u8), Err(GridError::TooLarge { .. })));
         assert!(matches!(Grid::filled(0, 7, 0_u8), Err(GridError::ZeroArea { .. })));
         assert!(matches!(Grid::new(2, 2, vec![1_u8]), Err(GridError::WrongCellCount { .. })));
+    }
+
+    #[test]
+    fn bounds_hold_every_cell_that_counts_and_touch_one_on_each_side() {
+        let cells = [0, 0, 0, 0, 0, 0, 7, 0, 0, 7, 0, 0, 0, 0, 0];
+        let grid = Grid::new(5, 3, cells.to_vec()).unwrap();
+        let corner = |column, row| CellIndex { column, row };
+        assert_eq!(grid.bounds_of(|&cell| cell == 7), Some((corner(1, 1), corner(4, 1))));
+        assert_eq!(grid.bounds_of(|&cell| cell == 0), Some((corner(0, 0), corner(4, 2))));
+        assert_eq!(grid.bounds_of(|&cell| cell == 1), None);
     }
 
     #[test]

@@ -31,8 +31,11 @@ mod frame;
 mod grid;
 mod length;
 mod nearest;
+mod nearest_wall;
 mod occupancy;
+mod occupancy_grid;
 mod outcome;
+mod parameter;
 mod progress;
 mod relative_pose;
 mod robot;
@@ -48,11 +51,13 @@ pub use frame::GridFrame;
 pub use grid::{CellIndex, Grid, MAX_CELLS, cell_count};
 pub use length::Length;
 pub use nearest::{NearestCells, l2_distance_sq};
+pub use nearest_wall::NearestWall;
 pub use occupancy::{
-    CellClass, ClassThresholds, LOG_ODDS_LIMIT, Occupancy, OccupancyGrid, log_odds,
-    probability_from_log_odds,
+    CellClass, ClassThresholds, LOG_ODDS_LIMIT, Occupancy, log_odds, probability_from_log_odds,
 };
+pub use occupancy_grid::OccupancyGrid;
 pub use outcome::{Outcome, Refusal};
+pub use parameter::{ParameterError, require};
 pub use progress::{Cancelled, Progress, Stage, Steps};
 pub use relative_pose::RelativePose;
 pub use robot::RobotId;

@@ -12,6 +12,10 @@ pub struct NearestCells {
     nearest: Grid<[u32; 2]>,
 }
 
+fn to_index([column, row]: [u32; 2]) -> CellIndex {
+    CellIndex { column: column as usize, row: row as usize }
+}
+
 /// No set cell in this column.
 const NONE: u32 = u32::MAX;
 
@@ -36,9 +40,12 @@ impl NearestCells {
     /// The set cell nearest to `index`, or `None` outside the grid.
     #[must_use]
     pub fn nearest(&self, index: CellIndex) -> Option<CellIndex> {
-        self.nearest
-            .get(index)
-            .map(|&[column, row]| CellIndex { column: column as usize, row: row as usize })
+        self.nearest.get(index).map(|&cell| to_index(cell))
+    }
+
+    /// [`nearest`](Self::nearest) inside the grid.
+    pub(crate) fn at(&self, index: CellIndex) -> CellIndex {
+        to_index(self.nearest.row(index.row)[index.column])
     }
 
     /// Squared distance in cells to the nearest set cell, for every cell; beyond 65 535 cells it

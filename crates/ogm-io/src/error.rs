@@ -99,6 +99,16 @@ pub enum YamlError {
         /// What would be accepted.
         expected: &'static str,
     },
+    /// A resolution or an origin outside what a grid may have.
+    #[error("`{key}: {value}`: {cause}")]
+    Frame {
+        /// The key.
+        key: &'static str,
+        /// Its value as written.
+        value: String,
+        /// Which range it is outside of.
+        cause: GridError,
+    },
     /// The thresholds leave nothing between free and occupied, or overlap.
     #[error(
         "`free_thresh: {free}` must be below `occupied_thresh: {occupied}`; usual values are 0.196 and 0.65"

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ogm_core::{GridFrame, Se2};
+use ogm_core::{GridError, GridFrame, Se2};
 use serde::Deserialize;
 
 use crate::{MapWarning, YamlError};
@@ -48,7 +48,7 @@ impl MapHeader {
         if image.is_empty() {
             return Err(value_error("image", image, "a file name"));
         }
-        let resolution = resolution(required(keys.resolution, "resolution", "0.05")?)?;
+        let resolution = required(keys.resolution, "resolution", "0.05")?;
         let origin = keys
             .origin
             .ok_or(YamlError::MissingKey { key: "origin", example: "[0.0, 0.0, 0.0]" })?;
@@ -101,12 +101,6 @@ fn value_error(key: &'static str, value: String, expected: &'static str) -> Yaml
     YamlError::Value { key, value, expected }
 }
 
-fn resolution(text: String) -> Result<f64, YamlError> {
-    number(&text)
-        .filter(|value| value.is_finite() && *value > 0.0)
-        .ok_or_else(|| value_error("resolution", text, "a finite number of metres above 0"))
-}
-
 fn threshold(
     value: Option<String>,
     key: &'static str,
@@ -136,11 +130,15 @@ fn mode(text: Option<String>) -> Result<MapMode, YamlError> {
     }
 }
 
-fn frame(resolution: f64, origin: &[String]) -> Result<(GridFrame, Vec<MapWarning>), YamlError> {
-    let bad = || {
-        let value = format!("[{}]", origin.join(", "));
-        value_error("origin", value, "[x, y, yaw], finite, in metres and radians")
+fn frame(
+    resolution_text: String,
+    origin: &[String],
+) -> Result<(GridFrame, Vec<MapWarning>), YamlError> {
+    let Some(resolution) = number(&resolution_text) else {
+        return Err(value_error("resolution", resolution_text, "a number of metres"));
     };
+    let origin_text = || format!("[{}]", origin.join(", "));
+    let bad = || value_error("origin", origin_text(), "[x, y, yaw], finite, in metres and radians");
     let [x_text, y_text, yaw_text] = origin else {
         return Err(bad());
     };
@@ -159,7 +157,13 @@ fn frame(resolution: f64, origin: &[String]) -> Result<(GridFrame, Vec<MapWarnin
         yaw if yaw.is_finite() => yaw,
         _ => return Err(bad()),
     };
-    let frame = GridFrame::new(resolution, Se2::new(x, y, yaw)).map_err(|_not_finite| bad())?;
+    let frame = GridFrame::new(resolution, Se2::new(x, y, yaw)).map_err(|cause| {
+        let (key, value) = match cause {
+            GridError::Resolution { .. } => ("resolution", resolution_text),
+            _ => ("origin", origin_text()),
+        };
+        YamlError::Frame { key, value, cause }
+    })?;
     Ok((frame, warnings))
 }
 

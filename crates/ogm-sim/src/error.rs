@@ -1,6 +1,6 @@
 //! What cannot be simulated.
 
-use ogm_core::GridError;
+use ogm_core::{GridError, ParameterError};
 
 /// A plan, route or parameter that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -41,15 +41,8 @@ pub enum SimError {
         wanted: usize,
     },
     /// A parameter outside its range.
-    #[error("{name} must be {expected}, got {value}")]
-    InvalidParameter {
-        /// Which one.
-        name: &'static str,
-        /// What it may be.
-        expected: &'static str,
-        /// What it is.
-        value: f64,
-    },
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// No exploration of a drawn floor gave maps that overlap as asked for.
     #[error("no two parts of this floor overlap as asked for; try another seed")]
     NoSuchPair,

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use crate::SimError;
+use ogm_core::{ParameterError, require};
 
 /// A robot, its sensors and the seed of everything random about a pair of them.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -60,7 +60,7 @@ impl PairParams {
         }
     }
 
-    pub(crate) fn check(&self) -> Result<(), SimError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         check_step(self.step)?;
         self.lidar.check()?;
         self.mapping.check()?;
@@ -137,21 +137,22 @@ impl LidarParams {
         }
     }
 
-    fn check(&self) -> Result<(), SimError> {
+    fn check(&self) -> Result<(), ParameterError> {
         positive("field_of_view", self.field_of_view)?;
-        at_most("field_of_view", self.field_of_view, TAU, "at most a full turn")?;
-        if !(2..=1_000_000).contains(&self.beams) {
-            return Err(SimError::InvalidParameter {
-                name: "beams",
-                expected: "2 to 1 000 000",
-                value: self.beams as f64,
-            });
-        }
+        require(
+            self.field_of_view <= TAU,
+            "field_of_view",
+            "at most a full turn",
+            self.field_of_view,
+        )?;
+        let beams = self.beams as f64;
+        let fits = (2..=1_000_000).contains(&self.beams);
+        require(fits, "beams", "2 to 1 000 000", beams)?;
         positive("max_range", self.max_range)?;
         not_negative("range_sigma", self.range_sigma)?;
         not_negative("quantum", self.quantum)?;
         not_negative("spurious_share", self.spurious_share)?;
-        at_most("spurious_share", self.spurious_share, 1.0, "at most 1")?;
+        require(self.spurious_share <= 1.0, "spurious_share", "at most 1", self.spurious_share)?;
         positive("scan_every", self.scan_every)
     }
 }
@@ -177,7 +178,7 @@ impl Default for MappingParams {
 }
 
 impl MappingParams {
-    fn check(&self) -> Result<(), SimError> {
+    fn check(&self) -> Result<(), ParameterError> {
         positive("resolution", self.resolution)?;
         positive("occupied_update", self.occupied_update)?;
         positive("-free_update", -self.free_update)?;
@@ -214,7 +215,7 @@ impl Default for TagParams {
 }
 
 impl TagParams {
-    pub(crate) fn check(&self) -> Result<(), SimError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         positive("tags.max_range", self.max_range)?;
         not_negative("tags.range_sigma", self.range_sigma)?;
         not_negative("tags.range_bias.abs()", self.range_bias.abs())?;
@@ -235,36 +236,15 @@ pub struct DriftParams {
     pub bend: f64,
 }
 
-pub(crate) fn positive(name: &'static str, value: f64) -> Result<(), SimError> {
-    let expected = "finite and above 0";
-    check(name, value, expected, value.is_finite() && value > 0.0)
+pub(crate) fn positive(name: &'static str, value: f64) -> Result<(), ParameterError> {
+    require(value.is_finite() && value > 0.0, name, "finite and above 0", value)
 }
 
 /// Steps below a millimetre are a mistake and would not end.
-pub(crate) fn check_step(step: f64) -> Result<(), SimError> {
-    let expected = "finite and at least 0.001 m";
-    check("step", step, expected, step.is_finite() && step >= 0.001)
+pub(crate) fn check_step(step: f64) -> Result<(), ParameterError> {
+    require(step.is_finite() && step >= 0.001, "step", "finite and at least 0.001 m", step)
 }
 
-pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<(), SimError> {
-    let expected = "finite and not below 0";
-    check(name, value, expected, value.is_finite() && value >= 0.0)
-}
-
-fn at_most(
-    name: &'static str,
-    value: f64,
-    limit: f64,
-    expected: &'static str,
-) -> Result<(), SimError> {
-    check(name, value, expected, value <= limit)
-}
-
-pub(crate) fn check(
-    name: &'static str,
-    value: f64,
-    expected: &'static str,
-    holds: bool,
-) -> Result<(), SimError> {
-    if holds { Ok(()) } else { Err(SimError::InvalidParameter { name, expected, value }) }
+pub(crate) fn not_negative(name: &'static str, value: f64) -> Result<(), ParameterError> {
+    require(value.is_finite() && value >= 0.0, name, "finite and not below 0", value)
 }

@@ -1,7 +1,7 @@
 //! One robot drives, scans and reads.
 
 use nalgebra::Point2;
-use ogm_core::{Grid, OccupancyGrid, Se2, TagReading};
+use ogm_core::{Grid, OccupancyGrid, Se2, TagReading, require};
 use rand::RngExt;
 use rand_distr::StandardNormal;
 use std::f64::consts::PI;
@@ -10,7 +10,7 @@ use crate::bend::Bend;
 use crate::draw::{Stream, generator};
 use crate::lidar::Lidar;
 use crate::mapping::{CellBox, Mapper};
-use crate::params::{check, check_step};
+use crate::params::check_step;
 use crate::path::{headings, smooth};
 use crate::tags::read_along;
 use crate::{FloorPlan, PairParams, Robot, SimError};
@@ -119,14 +119,15 @@ fn map_along_paths(
     for (_, path) in paths {
         let mut coordinates = path.iter().flat_map(|point| [point.x, point.y]);
         if let Some(wrong) = coordinates.find(|x| x.is_nan() || x.abs() > MAX_COORDINATE) {
-            check("a coordinate of the path", wrong, "within 1000 km", false)?;
+            require(false, "a coordinate of the path", "within 1000 km", wrong)?;
         }
         let points = path.len() as f64;
-        check("points of the path", points, "at least 1", points > 0.0)?;
+        require(points > 0.0, "points of the path", "at least 1", points)?;
     }
     let theta = world_from_map.theta();
     let is_near = world_from_map.translation().amax() <= MAX_COORDINATE && theta.is_finite();
-    check("world_from_map (its heading)", theta, "finite, and its place within 1000 km", is_near)?;
+    let requirement = "finite, and its place within 1000 km";
+    require(is_near, "world_from_map (its heading)", requirement, theta)?;
     let map_from_world = world_from_map.inverse();
     let drives: Vec<Drive> = paths
         .iter()

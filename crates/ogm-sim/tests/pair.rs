@@ -236,7 +236,7 @@ fn parameters_that_cannot_be_meant_are_errors() {
         ("compass_sigma", with(|p| p.drift.compass_sigma = -0.1)),
     ] {
         match result {
-            Err(SimError::InvalidParameter { name: found, .. }) => assert_eq!(found, name),
+            Err(SimError::Parameter(error)) => assert_eq!(error.name, name),
             other => panic!("{name}: {:?}", other.err()),
         }
     }

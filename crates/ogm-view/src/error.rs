@@ -6,16 +6,6 @@ use ogm_core::GridError;
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ViewError {
-    /// A transform with a NaN or infinite part.
-    #[error("a transform must be finite, got ({x}, {y}, {theta})")]
-    NonFiniteTransform {
-        /// Translation x, metres.
-        x: f64,
-        /// Translation y, metres.
-        y: f64,
-        /// Rotation, radians.
-        theta: f64,
-    },
     /// No map has a known cell.
     #[error("neither map has a known cell to draw")]
     NothingKnown,
@@ -29,7 +19,7 @@ pub enum ViewError {
         /// Most cells of an overlay.
         limit: i64,
     },
-    /// A grid of impossible size.
+    /// A grid of impossible size, or a transform with a NaN or infinite part.
     #[error(transparent)]
     Grid(#[from] GridError),
     /// The PNG encoder gave up.

@@ -9,7 +9,7 @@ use ogm_core::{
 
 use crate::ViewError;
 use crate::palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL};
-use crate::raster::{MAX_SIDE, known_box, paint};
+use crate::raster::{MAX_SIDE, paint};
 
 /// The most cells that an overlay may cover: as many as a map may have, but not two maps that a
 /// wild transform put kilometres apart.
@@ -30,11 +30,7 @@ pub fn overlay(
     source: &OccupancyGrid,
     target_from_source: Se2,
 ) -> Result<RgbImage, ViewError> {
-    if !target_from_source.is_finite() {
-        let motion = &target_from_source;
-        let (x, y, theta) = (motion.x(), motion.y(), motion.theta());
-        return Err(ViewError::NonFiniteTransform { x, y, theta });
-    }
+    target_from_source.check_finite()?;
     let lattice = target.frame();
     let corners = known_corners(target)
         .into_iter()
@@ -108,7 +104,7 @@ fn seen_as(
 
 /// Centres of the cells at the corners of the known part, in the map's frame.
 fn known_corners(map: &OccupancyGrid) -> Vec<Point2<f64>> {
-    let corners = known_box(map).map(|(low, high)| {
+    let corners = map.cells().bounds_of(|cell| cell.is_known()).map(|(low, high)| {
         [low.column, high.column]
             .into_iter()
             .flat_map(move |column| [low.row, high.row].map(move |row| CellIndex { column, row }))

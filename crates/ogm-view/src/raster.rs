@@ -39,7 +39,7 @@ const MARGIN: usize = 2;
 /// # Errors
 /// None that a map could cause; the constructors are asked all the same.
 pub fn crop_known(map: &OccupancyGrid) -> Result<OccupancyGrid, ViewError> {
-    let Some((low, high)) = known_box(map) else {
+    let Some((low, high)) = map.cells().bounds_of(|cell| cell.is_known()) else {
         return Ok(map.clone());
     };
     let first = [low.column.saturating_sub(MARGIN), low.row.saturating_sub(MARGIN)];
@@ -52,17 +52,6 @@ pub fn crop_known(map: &OccupancyGrid) -> Result<OccupancyGrid, ViewError> {
     let cells = |count: usize| i64::try_from(count).unwrap_or(i64::MAX);
     let frame = map.frame().shifted(cells(first[0]), cells(first[1]));
     Ok(OccupancyGrid::new(frame, grid))
-}
-
-/// Lowest and highest column and row that hold a known cell.
-pub(crate) fn known_box(map: &OccupancyGrid) -> Option<(CellIndex, CellIndex)> {
-    let known = map.cells().indexed().filter(|(_, cell)| cell.is_known());
-    known.fold(None, |corners, (at, _)| {
-        let (low, high) = corners.unwrap_or((at, at));
-        let low = CellIndex { column: low.column.min(at.column), row: low.row.min(at.row) };
-        let high = CellIndex { column: high.column.max(at.column), row: high.row.max(at.row) };
-        Some((low, high))
-    })
 }
 
 /// Square blocks of cells as one cell, so that no side exceeds [`MAX_SIDE`].

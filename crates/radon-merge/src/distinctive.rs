@@ -1,7 +1,7 @@
 //! Which segments say enough to be looked for in another map.
 
 use crate::Signature;
-use crate::error::{RadonError, require};
+use ogm_core::{ParameterError, require};
 
 /// When a segment is worth comparing.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,7 +25,7 @@ impl Default for DistinctiveParams {
 }
 
 impl DistinctiveParams {
-    pub(crate) fn check(&self) -> Result<(), RadonError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let bins = self.distance_bins.min(self.arc_bins);
         let most = self.distance_bins.max(self.arc_bins);
         let requirement = "between 2 and 1000 bins";

@@ -2,9 +2,9 @@
 
 use imageproc::edges::canny;
 use imageproc::image::{GrayImage, Luma};
-use ogm_core::{ClassThresholds, Grid, GridError, OccupancyGrid};
+use ogm_core::{ClassThresholds, Grid, GridError, OccupancyGrid, ParameterError, require};
 
-use crate::error::{RadonError, require};
+use crate::RadonError;
 
 /// How edges are detected.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +23,7 @@ impl Default for EdgeParams {
 }
 
 impl EdgeParams {
-    pub(crate) fn check(&self) -> Result<(), RadonError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let in_order = self.low > 0.0 && self.low <= self.high && self.high <= 1.0;
         require(in_order, "edges.low", "above 0, at most `high`, which is at most 1", self.low)
     }

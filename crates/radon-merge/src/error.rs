@@ -1,6 +1,6 @@
 //! What cannot be meant as a pair of maps to merge.
 
-use ogm_core::{Cancelled, GridError};
+use ogm_core::{Cancelled, GridError, ParameterError};
 
 /// Maps, points or parameters that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -31,22 +31,6 @@ pub enum RadonError {
         source_: usize,
     },
     /// A parameter outside its range.
-    #[error("{name} must be {requirement}, got {value}")]
-    InvalidParameter {
-        /// Field of [`RadonParams`](crate::RadonParams) or of its parts.
-        name: &'static str,
-        /// What it must be.
-        requirement: &'static str,
-        /// What was given.
-        value: f64,
-    },
-}
-
-pub(crate) fn require(
-    holds: bool,
-    name: &'static str,
-    requirement: &'static str,
-    value: f64,
-) -> Result<(), RadonError> {
-    if holds { Ok(()) } else { Err(RadonError::InvalidParameter { name, requirement, value }) }
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
 }

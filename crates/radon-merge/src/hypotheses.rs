@@ -1,12 +1,11 @@
 //! Many poses from pairs of segments, each scored by how walls meet, and the best of them.
 
 use nalgebra::Point2;
-use ogm_core::{Cancelled, Progress, Se2, Steps, wrap_angle, wrap_period};
+use ogm_core::{Cancelled, ParameterError, Progress, Se2, Steps, require, wrap_angle, wrap_period};
 use std::f64::consts::PI;
 
 use crate::approximate::{Line, PoseRule, pose_between};
 use crate::correlation::{dot, histogram_correlations};
-use crate::error::{RadonError, require};
 use crate::parallel::map_in_order;
 use crate::pose_scorer::PoseScorer;
 use crate::{DistinctiveParams, RotationCorrelation, WallSegment};
@@ -39,7 +38,7 @@ impl Default for HypothesisParams {
 }
 
 impl HypothesisParams {
-    pub(crate) fn check(&self) -> Result<(), RadonError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let least = self.min_correlation;
         let name = "hypotheses.min_correlation";
         require((-1.0..=1.0).contains(&least), name, "-1 to 1", least)?;

@@ -1,9 +1,9 @@
 //! The knobs of every block, gathered.
 
-use ogm_core::ClassThresholds;
+use ogm_core::{ClassThresholds, ParameterError};
 
 use crate::{
-    DistinctiveParams, EdgeParams, HypothesisParams, RadonError, RotationParams, SegmentParams,
+    DistinctiveParams, EdgeParams, HypothesisParams, RotationParams, SegmentParams,
     TranslationParams, VerificationParams,
 };
 
@@ -51,7 +51,7 @@ impl Default for RadonParams {
 }
 
 impl RadonParams {
-    pub(crate) fn check(&self) -> Result<(), RadonError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         self.edges.check()?;
         self.segments.check()?;
         self.distinctive.check()?;

@@ -1,11 +1,11 @@
 //! The Radon transform of wall points.
 
 use nalgebra::Point2;
-use ogm_core::Grid;
+use ogm_core::{Grid, require};
 use std::f64::consts::PI;
 
+use crate::RadonError;
 use crate::approximate::box_centre;
-use crate::error::{RadonError, require};
 
 /// Projections of wall points onto lines of every direction (Saeedi et al., section II.H).
 ///

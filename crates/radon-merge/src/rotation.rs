@@ -1,10 +1,10 @@
 //! The rotation, tuned by the Radon images of both maps.
 
-use ogm_core::{wrap_angle, wrap_period};
+use ogm_core::{ParameterError, require, wrap_angle, wrap_period};
 use std::f64::consts::PI;
 
+use crate::RadonError;
 use crate::RadonImage;
-use crate::error::{RadonError, require};
 
 /// How the rotation is tuned.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,7 +23,7 @@ impl Default for RotationParams {
 }
 
 impl RotationParams {
-    pub(crate) fn check(&self) -> Result<(), RadonError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let step_ok = self.angle_step >= 1e-4 && self.angle_step <= 0.2;
         require(step_ok, "rotation.angle_step", "0.0001 to 0.2 rad", self.angle_step)?;
         let window_ok = self.window >= 0.0 && self.window <= PI / 2.0;
@@ -137,7 +137,7 @@ fn check(target: &RadonImage, source: &RadonImage, rotation: f64) -> Result<(), 
     if target != source_ {
         return Err(RadonError::DifferentAngles { target, source_ });
     }
-    require(rotation.is_finite(), "rotation", "finite", rotation)
+    Ok(require(rotation.is_finite(), "rotation", "finite", rotation)?)
 }
 
 #[cfg(test)]

@@ -6,7 +6,6 @@ use crate::approximate::box_centre;
 use crate::hypotheses::{Apart, Rotations, distinct, propose};
 use crate::parallel::map_in_order;
 use crate::pose_scorer::{PoseScorer, Sampling};
-use crate::similarity::check_resolutions;
 use crate::verify::{WallField, verify_prepared};
 use crate::{
     Hypothesis, HypothesisParams, RadonError, RadonImage, RadonParams, RotationCorrelation,
@@ -108,7 +107,7 @@ fn search(
 ) -> Result<RadonMatch, RadonError> {
     params.check()?;
     progress.go_on(0.0)?;
-    check_resolutions(target, source)?;
+    target.check_same_resolution(source)?;
     let thresholds = &params.thresholds;
     let fields = [target, source].map(|map| WallField::new(map, thresholds));
     let [Some(target_walls), Some(source_walls)] = fields else {

@@ -1,9 +1,8 @@
 //! The translation, tuned by how far the maps agree at every shift of a window.
 
-use ogm_core::{ClassThresholds, Grid, GridError, OccupancyGrid, Se2};
+use ogm_core::{ClassThresholds, Grid, OccupancyGrid, ParameterError, Se2, require};
 
 use crate::counts::Overlaid;
-use crate::error::require;
 use crate::{EntropyHistogram, JointCounts, RadonError, joint_entropy};
 
 /// How the translation is tuned.
@@ -31,7 +30,7 @@ impl Default for TranslationParams {
 }
 
 impl TranslationParams {
-    pub(crate) fn check(&self) -> Result<(), RadonError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let radius = self.radius as f64;
         require(self.radius <= 200, "translation.radius", "at most 200 cells", radius)
     }
@@ -141,7 +140,7 @@ pub fn tune_translation(
     params: &TranslationParams,
 ) -> Result<TranslationWindow, RadonError> {
     params.check()?;
-    check_resolutions(target, source)?;
+    target.check_same_resolution(source)?;
     let overlaid = Overlaid::new(target, source, &start_target_from_source, thresholds)?;
     let counts = overlaid.counts(params.radius)?;
     let similarity = counts.map(|counts| similarity(counts, params));
@@ -193,21 +192,4 @@ fn best_shift(field: &Grid<f64>, is_better: impl Fn(f64, f64) -> bool) -> [i64; 
         }
     }
     best.map_or([0, 0], |(_, _, shift)| shift)
-}
-
-pub(crate) fn check_resolutions(
-    target: &OccupancyGrid,
-    source: &OccupancyGrid,
-) -> Result<(), RadonError> {
-    if target.frame().same_resolution(source.frame()) {
-        return Ok(());
-    }
-    Err(RadonError::Grid(GridError::ResolutionMismatch {
-        a_width: target.width(),
-        a_height: target.height(),
-        a_resolution: target.frame().resolution(),
-        b_width: source.width(),
-        b_height: source.height(),
-        b_resolution: source.frame().resolution(),
-    }))
 }

@@ -1,12 +1,12 @@
 //! Wall segments of one length, traced along the smoothed edges.
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::{CellIndex, Grid, GridFrame};
+use ogm_core::{CellIndex, Grid, GridFrame, ParameterError, require};
 use rand::SeedableRng;
 use rand::seq::SliceRandom;
 use rand_chacha::ChaCha8Rng;
 
-use crate::error::{RadonError, require};
+use crate::RadonError;
 use crate::{DistinctiveParams, Signature, is_distinctive, signature};
 
 /// How segments are traced.
@@ -28,7 +28,7 @@ impl Default for SegmentParams {
 }
 
 impl SegmentParams {
-    pub(crate) fn check(&self) -> Result<(), RadonError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let points = self.points as f64;
         require((3..=10_000).contains(&self.points), "segments.points", "3 to 10 000", points)?;
         let reach = self.reach as f64;

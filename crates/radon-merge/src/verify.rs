@@ -1,10 +1,11 @@
 //! Whether a transform is right, scored by cells, walls and entropy.
 
 use nalgebra::Point2;
-use ogm_core::Refusal;
-use ogm_core::{CellIndex, ClassThresholds, Grid, NearestCells, OccupancyGrid, Outcome, Se2};
+use ogm_core::{
+    CellIndex, ClassThresholds, Grid, NearestCells, OccupancyGrid, Outcome, ParameterError,
+    Refusal, Se2, require,
+};
 
-use crate::error::{RadonError, require};
 use crate::{JointCounts, TranslationWindow};
 
 /// What a transform must show to be accepted.
@@ -42,7 +43,7 @@ impl Default for VerificationParams {
 }
 
 impl VerificationParams {
-    pub(crate) fn check(&self) -> Result<(), RadonError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let index = self.min_index;
         require((0.0..=100.0).contains(&index), "verification.min_index", "0 to 100 %", index)?;
         let share = self.min_wall_share;

@@ -188,7 +188,7 @@ fn what_cannot_be_meant_is_an_error() {
     let mut wrong = params();
     wrong.edges.low = f64::NAN;
     let found = find_transform(&target, &target, &wrong, &());
-    assert!(matches!(found, Err(RadonError::InvalidParameter { .. })));
+    assert!(matches!(found, Err(RadonError::Parameter(_))));
     let nowhere = Se2::new(f64::NAN, 0.0, 0.0);
     let thresholds = wrong.thresholds;
     let tuned = tune_translation(&target, &target, nowhere, &thresholds, &wrong.translation);

@@ -1,27 +1,14 @@
 //! What cannot be meant as a reading, an estimate or a parameter.
 
-use ogm_core::{Cancelled, GridError};
+use ogm_core::{Cancelled, GridError, ParameterError};
 
 /// Input that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TagError {
-    /// Filter parameters that describe no sensor or no window.
-    #[error(
-        "a tag filter needs cells of at least 1 mm, a range sigma of at least a hundredth of a cell, a maximum range above 0 and a window that fits its {side_cells} cells a side; got cells of {cell_size} m, sigma {range_sigma} m, range {max_range} m, window {sub_sampling}"
-    )]
-    InvalidParams {
-        /// Metres a cell.
-        cell_size: f64,
-        /// Cells a side of the search area.
-        side_cells: usize,
-        /// Standard deviation of a range, metres.
-        range_sigma: f64,
-        /// Longest true range, metres.
-        max_range: f64,
-        /// Cells a side of the certainty window.
-        sub_sampling: usize,
-    },
+    /// A filter parameter outside its range.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// A position that is not finite, or further than [`crate::MAX_COORDINATE`] from the origin.
     #[error("a position must be finite and within 1e9 m of the origin, got ({x}, {y})")]
     Position {

@@ -1,7 +1,7 @@
 //! The grid Bayes filter of one tag (Eqs. 1, 2).
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::{CellIndex, Grid, GridFrame, Se2, TagEstimate};
+use ogm_core::{CellIndex, Grid, GridFrame, ParameterError, Se2, TagEstimate, require};
 
 use crate::window::{Peak, most_probable};
 use crate::{FilterParams, PositionRule, TagError};
@@ -179,17 +179,16 @@ pub(crate) fn check_position(position: Point2<f64>) -> Result<(), TagError> {
     }
 }
 
-fn check_params(params: &FilterParams) -> Result<(), TagError> {
+fn check_params(params: &FilterParams) -> Result<(), ParameterError> {
     let &FilterParams { cell_size, side_cells, range_sigma, max_range, sub_sampling, .. } = params;
-    let lengths = (1e-3..=MAX_COORDINATE).contains(&cell_size)
-        && (0.01 * cell_size..=MAX_COORDINATE).contains(&range_sigma)
-        && max_range > 0.0
-        && max_range <= MAX_COORDINATE;
-    if lengths && (1..=side_cells).contains(&sub_sampling) {
-        Ok(())
-    } else {
-        Err(TagError::InvalidParams { cell_size, side_cells, range_sigma, max_range, sub_sampling })
-    }
+    let size_fits = (1e-3..=MAX_COORDINATE).contains(&cell_size);
+    require(size_fits, "cell_size", "0.001 to 1e9 m", cell_size)?;
+    let sigma_fits = (0.01 * cell_size..=MAX_COORDINATE).contains(&range_sigma);
+    require(sigma_fits, "range_sigma", "a hundredth of a cell to 1e9 m", range_sigma)?;
+    let range_fits = max_range > 0.0 && max_range <= MAX_COORDINATE;
+    require(range_fits, "max_range", "above 0 and at most 1e9 m", max_range)?;
+    let window_fits = (1..=side_cells).contains(&sub_sampling);
+    require(window_fits, "sub_sampling", "1 to side_cells", sub_sampling as f64)
 }
 
 fn squared_f32(distance: f64) -> f32 {

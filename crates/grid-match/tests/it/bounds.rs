@@ -1,7 +1,7 @@
 //! Priors, budgets and parameters.
 
 use grid_match::{MatchError, MatchParams, PreparedMap, Prior, match_maps, score_pose};
-use ogm_core::{Se2, wrap_angle};
+use ogm_core::{GridError, ParameterError, Se2, wrap_angle};
 use std::f64::consts::PI;
 
 use crate::world::{OFFICE, ROOM, apart, draw, left_part, right_part};
@@ -70,13 +70,19 @@ fn parameters_that_cannot_be_meant_are_errors() {
     let fails = |params: MatchParams| match_maps(&map, &map, &params, &()).unwrap_err();
     for accept in [0.0, 1.1, f64::NAN] {
         let error = fails(MatchParams { accept, ..MatchParams::default() });
-        assert!(matches!(error, MatchError::InvalidParameter { name: "accept", .. }), "{error}");
+        assert!(
+            matches!(error, MatchError::Parameter(ParameterError { name: "accept", .. })),
+            "{error}"
+        );
     }
     let nowhere = Se2::new(f64::NAN, 0.0, 0.0);
     let error = fails(believing(nowhere, 1.0, 1.0));
-    assert!(matches!(error, MatchError::NonFinitePose { .. }), "{error}");
+    assert!(matches!(error, MatchError::Grid(GridError::NonFiniteTransform { .. })), "{error}");
     let error = fails(believing(Se2::identity(), -1.0, 1.0));
-    assert!(matches!(error, MatchError::InvalidParameter { name: "prior.sigma_m", .. }), "{error}");
+    assert!(
+        matches!(error, MatchError::Parameter(ParameterError { name: "prior.sigma_m", .. })),
+        "{error}"
+    );
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! What is not believed, and why.
 
-use grid_match::{MatchParams, match_maps};
+use grid_match::{Effort, MatchParams, match_maps};
 use ogm_core::{Grid, GridFrame, Occupancy, OccupancyGrid, Outcome, Refusal, Se2};
 use proptest::prelude::{ProptestConfig, Strategy, any, prop, proptest};
 use std::f64::consts::PI;
@@ -107,5 +107,19 @@ proptest! {
         let params = MatchParams { min_wall_m: 0.0, ..MatchParams::default() };
         let report = match_maps(&target, &source, &params, &()).unwrap();
         assert!(report.outcome.refusal().is_some(), "{:?}", report.outcome);
+    }
+}
+
+#[test]
+fn maps_a_cell_or_two_wide_are_refused_however_they_are_turned() {
+    let params = MatchParams { effort: Effort::Thorough, ..MatchParams::default() };
+    for (width, height) in [(1, 115), (154, 1), (2, 130), (3, 90), (97, 2)] {
+        for yaw in [2.721, -2.9333, 0.0] {
+            let cells = Grid::filled(width, height, Occupancy::OCCUPIED).unwrap();
+            let frame = GridFrame::new(0.05, Se2::new(-0.0586, 0.9914, yaw)).unwrap();
+            let map = OccupancyGrid::new(frame, cells);
+            let report = match_maps(&map, &map, &params, &()).unwrap();
+            assert!(report.outcome.refusal().is_some(), "{width} × {height} at {yaw}");
+        }
     }
 }

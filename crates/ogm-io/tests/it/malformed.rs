@@ -28,11 +28,6 @@ fn every_required_key_is_asked_for_by_name() {
 #[test]
 fn values_out_of_their_domain_are_quoted() {
     for (key, value) in [
-        ("resolution", "0"),
-        ("resolution", "-0.05"),
-        ("resolution", ".nan"),
-        ("resolution", "-nan"),
-        ("resolution", "inf"),
         ("resolution", "5 cm"),
         ("origin", "[nan, 0, 0]"),
         ("origin", "[0, -.nan, 0]"),
@@ -51,6 +46,22 @@ fn values_out_of_their_domain_are_quoted() {
         let error = yaml_error(&[(key, value)]);
         assert!(matches!(error, YamlError::Value { key: found, .. } if found == key), "{error}");
         assert!(error.to_string().contains(value), "{error}");
+    }
+    for (key, value, range) in [
+        ("resolution", "0", "0.0001 to 1000 m"),
+        ("resolution", "-0.05", "0.0001 to 1000 m"),
+        ("resolution", ".nan", "0.0001 to 1000 m"),
+        ("resolution", "-nan", "0.0001 to 1000 m"),
+        ("resolution", "inf", "0.0001 to 1000 m"),
+        ("resolution", "1e300", "0.0001 to 1000 m"),
+        ("resolution", "1e-9", "0.0001 to 1000 m"),
+        ("origin", "[0, 1e25, 0]", "10000000 m"),
+        ("origin", "[-20000000, 0, 0]", "10000000 m"),
+    ] {
+        let error = yaml_error(&[(key, value)]);
+        assert!(matches!(error, YamlError::Frame { key: found, .. } if found == key), "{error}");
+        let text = error.to_string();
+        assert!(text.contains(&format!("{key}: {value}")) && text.contains(range), "{text}");
     }
     assert!(matches!(yaml_error(&[("image", "''")]), YamlError::Value { .. }));
     for free in ["0.65", "0.7"] {

@@ -55,7 +55,7 @@ fn truth(pair: &SimulatedPair) -> String {
 mod tests {
     use super::write;
     use ogm_core::{Outcome, Se2};
-    use ogm_merge::{Method, RfidParams, RobotMap, align};
+    use ogm_merge::{RfidParams, RobotMap, TagMethod, align_by_tags};
     use rfid_loc::{FilterParams, localise};
     use std::path::Path;
 
@@ -97,11 +97,12 @@ mod tests {
         };
         let (target, target_tags) = read("target");
         let (source, source_tags) = read("source");
-        let report = align(
-            Method::Rfid3,
+        let report = align_by_tags(
+            TagMethod::Rfid3,
             &RobotMap { map: &target, tags: &target_tags },
             &RobotMap { map: &source, tags: &source_tags },
             &RfidParams::default(),
+            &(),
         );
         let Outcome::Found(target_from_source) = report.unwrap().outcome else {
             panic!("the example maps were refused");

@@ -49,18 +49,18 @@ fn judge(
     seed: u64,
     pair: &LabelledPair,
 ) -> anyhow::Result<Judged> {
-    let report = match_maps(&pair.target, &pair.source, &MatchParams::default())?;
+    let report = match_maps(&pair.target, &pair.source, &MatchParams::default(), &())?;
     let cell = |map: &OccupancyGrid| map.frame().resolution();
     let truth = pair.truth.map(|truth| Truth::of_simulated(&truth, cell(&pair.target), pair.exact));
     let hypotheses: Vec<Best> = report
         .hypotheses
         .iter()
         .map(|hypothesis| {
-            let pose = &hypothesis.target_from_source;
+            let pose = &hypothesis.pose.target_from_source;
             let nowhere = PoseError { displacement: f64::INFINITY, turn: f64::INFINITY };
             let error = truth.map_or(nowhere, |truth| truth.error(pose));
             let is_right = truth.is_some_and(|truth| truth.admits(error));
-            Best { probability: hypothesis.probability, is_right, error }
+            Best { probability: hypothesis.pose.probability, is_right, error }
         })
         .collect();
     Ok(Judged {

@@ -5,7 +5,7 @@ use grid_merge::{ForwardRounding, FusionParams, GapTreatment, Mapping, PlacedMap
 use image::RgbImage;
 use nalgebra::Point2;
 use ogm_core::{OccupancyGrid, Se2, TagReading};
-use ogm_merge::{Method, RfidParams, RobotMap, align};
+use ogm_merge::{RfidParams, RobotMap, TagMethod, align_by_tags};
 use ogm_view::{crop_known, occupancy, overlay, png, side_by_side};
 use rfid_loc::{FilterParams, TagFilter};
 
@@ -30,8 +30,10 @@ pub(super) fn draw(seed: u64) -> anyhow::Result<Vec<Figure>> {
         RobotMap { map: source, tags: &source_tags },
     ];
     let mut best = None;
-    for (name, method) in [("#1", Method::Rfid1), ("#2", Method::Rfid2), ("#3", Method::Rfid3)] {
-        let report = align(method, &robots[0], &robots[1], &RfidParams::default())?;
+    for (name, method) in
+        [("#1", TagMethod::Rfid1), ("#2", TagMethod::Rfid2), ("#3", TagMethod::Rfid3)]
+    {
+        let report = align_by_tags(method, &robots[0], &robots[1], &RfidParams::default(), &())?;
         let Some(target_from_source) = report.outcome.found() else {
             continue;
         };

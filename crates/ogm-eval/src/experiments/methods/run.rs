@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use grid_match::{MatchParams, match_maps};
 use ogm_core::Se2;
-use ogm_merge::{RobotMap, align};
+use ogm_merge::{RobotMap, align_by_tags};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use super::record::{MATCH, REGIMES, case_name, case_without_tags};
@@ -59,7 +59,7 @@ fn run_world(
         for variant in variants {
             let params = (variant.params)(&world);
             let start = Instant::now();
-            let report = align(variant.method, &target, &source, &params)?;
+            let report = align_by_tags(variant.method, &target, &source, &params, &())?;
             let milliseconds = start.elapsed().as_secs_f64() * 1e3;
             let result = RunResult::of(&report.outcome, errors);
             runs.push(Run {
@@ -74,7 +74,7 @@ fn run_world(
     }
     let start = Instant::now();
     let (target, source) = (&world.pair.target.map, &world.pair.source.map);
-    let report = match_maps(target, source, &MatchParams::default())?;
+    let report = match_maps(target, source, &MatchParams::default(), &())?;
     let milliseconds = start.elapsed().as_secs_f64() * 1e3;
     runs.push(Run {
         experiment: "X4",

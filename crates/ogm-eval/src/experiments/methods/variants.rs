@@ -3,7 +3,7 @@
 use icp2d::{IcpParams, Pairing};
 use nalgebra::Point2;
 use ogm_core::{Length, OccupancyGrid};
-use ogm_merge::{Anchor, Method, RfidParams};
+use ogm_merge::{Anchor, RfidParams, TagMethod};
 use rfid_loc::{RotationCentre, TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation};
 
 use crate::cases::worlds::World;
@@ -11,35 +11,35 @@ use crate::cases::worlds::World;
 /// A row of the table: a method in one of its forms.
 pub(super) struct Variant {
     pub(super) name: &'static str,
-    pub(super) method: Method,
+    pub(super) method: TagMethod,
     pub(super) params: fn(&World) -> RfidParams,
 }
 
 /// The defaults first.
 pub(super) const VARIANTS: [Variant; 16] = [
-    Variant { name: "#1", method: Method::Rfid1, params: |_| RfidParams::default() },
-    Variant { name: "#2", method: Method::Rfid2, params: |_| RfidParams::default() },
-    Variant { name: "#3", method: Method::Rfid3, params: |_| RfidParams::default() },
+    Variant { name: "#1", method: TagMethod::Rfid1, params: |_| RfidParams::default() },
+    Variant { name: "#2", method: TagMethod::Rfid2, params: |_| RfidParams::default() },
+    Variant { name: "#3", method: TagMethod::Rfid3, params: |_| RfidParams::default() },
     Variant {
         name: "#1 with tags 1 and 2",
-        method: Method::Rfid1,
+        method: TagMethod::Rfid1,
         params: |_| tag_only(TagOnlyParams { rotation: TagOnlyRotation::P2, ..Default::default() }),
     },
     Variant {
         name: "#1b least squares",
-        method: Method::Rfid1b,
+        method: TagMethod::Rfid1b,
         params: |_| RfidParams::default(),
     },
     Variant {
         name: "#1 rotation as printed",
-        method: Method::Rfid1,
+        method: TagMethod::Rfid1,
         params: |_| {
             tag_only(TagOnlyParams { rotation: TagOnlyRotation::AsPrinted, ..Default::default() })
         },
     },
     Variant {
         name: "#1 translation as printed",
-        method: Method::Rfid1,
+        method: TagMethod::Rfid1,
         params: |_| {
             tag_only(TagOnlyParams {
                 translation: TagOnlyTranslation::AsPrinted,
@@ -49,7 +49,7 @@ pub(super) const VARIANTS: [Variant; 16] = [
     },
     Variant {
         name: "#1 translation by unrotated centroids, sign repaired",
-        method: Method::Rfid1,
+        method: TagMethod::Rfid1,
         params: |_| {
             tag_only(TagOnlyParams {
                 translation: TagOnlyTranslation::SignFixed,
@@ -59,7 +59,7 @@ pub(super) const VARIANTS: [Variant; 16] = [
     },
     Variant {
         name: "#1 all as printed",
-        method: Method::Rfid1,
+        method: TagMethod::Rfid1,
         params: |_| {
             tag_only(TagOnlyParams {
                 rotation: TagOnlyRotation::AsPrinted,
@@ -70,7 +70,7 @@ pub(super) const VARIANTS: [Variant; 16] = [
     },
     Variant {
         name: "#1 cropped image, turned about its centre, sign repaired",
-        method: Method::Rfid1,
+        method: TagMethod::Rfid1,
         params: |world| {
             tag_only(TagOnlyParams {
                 translation: TagOnlyTranslation::SignFixed,
@@ -85,7 +85,7 @@ pub(super) const VARIANTS: [Variant; 16] = [
     },
     Variant {
         name: "#2 printed weights",
-        method: Method::Rfid2,
+        method: TagMethod::Rfid2,
         params: |_| RfidParams {
             vector: ogm_vector::Params {
                 weights: ogm_vector::Weights::AsPrinted,
@@ -96,27 +96,27 @@ pub(super) const VARIANTS: [Variant; 16] = [
     },
     Variant {
         name: "#2 all three tags carry the translation",
-        method: Method::Rfid2,
+        method: TagMethod::Rfid2,
         params: |_| RfidParams { anchor: Anchor::AllTags, ..Default::default() },
     },
     Variant {
         name: "#3 from where #2 ends",
-        method: Method::Rfid3,
+        method: TagMethod::Rfid3,
         params: |_| icp(IcpParams::default()),
     },
     Variant {
         name: "#3 reciprocal only",
-        method: Method::Rfid3,
+        method: TagMethod::Rfid3,
         params: |_| icp(IcpParams { pairing: Pairing::Reciprocal, ..Default::default() }),
     },
     Variant {
         name: "#3 one-way, gate to 5 px",
-        method: Method::Rfid3,
+        method: TagMethod::Rfid3,
         params: |_| icp(IcpParams { pairing: Pairing::OneWay, ..Default::default() }),
     },
     Variant {
         name: "#3 rectangle only, no gate",
-        method: Method::Rfid3,
+        method: TagMethod::Rfid3,
         params: |_| {
             icp(IcpParams {
                 pairing: Pairing::OneWay,

@@ -115,7 +115,7 @@ fn answer(pair: &MapPair, truth: &Truth, seed: u64, stream: u64) -> anyhow::Resu
         let distance = DistanceParams { objective, thresholds, ..DistanceParams::default() };
         let search = Params { distance, seed, around: Around::Start, ..Params::default() };
         let params = CarpinParams { search, ..CarpinParams::default() };
-        let report = align_carpin(&target, &source, start, &params)?;
+        let report = align_carpin(&target, &source, start, &params, &())?;
         let result = match report.outcome {
             Outcome::Found(found) => {
                 let pose = truth.error(&found.target_from_source);

@@ -72,7 +72,7 @@ fn walk(case: &Case, variant: &Variant, pair: &RescuePair) -> anyhow::Result<Wal
     let distance = DistanceParams { objective: variant.objective, ..DistanceParams::default() };
     let params = Params { distance, seed: pair.seed, ..Params::default() };
     let clock = Instant::now();
-    let outcome = align(&pair.target, &pair.source, start, variant.rules.as_ref(), &params)?;
+    let outcome = align(&pair.target, &pair.source, start, variant.rules.as_ref(), &params, &())?;
     let milliseconds = clock.elapsed().as_secs_f64() * 1e3;
     let mut at_truth = carpin_walk::MapDistance::new(&pair.target, &pair.source, &params.distance)?;
     let psi_of_truth = at_truth.psi(&pair.target_from_source)?.psi;

@@ -1,7 +1,7 @@
 //! What the methods answered on a real pair, and how each answer is judged.
 
 use ogm_core::Se2;
-use ogm_merge::Evidence;
+use ogm_merge::TagEvidence;
 
 use crate::cases::map_pair::MapPair;
 use crate::judge::Verdict;
@@ -18,7 +18,7 @@ pub(super) const NAMES: [&str; 4] = ["#1", "#2", "#3", MATCH];
 pub(super) struct Answers {
     pub(super) runs: Vec<Run>,
     /// What #3 saw.
-    pub(super) evidence: Evidence,
+    pub(super) evidence: TagEvidence,
     /// What #3 answered.
     pub(super) target_from_source: Option<Se2>,
 }

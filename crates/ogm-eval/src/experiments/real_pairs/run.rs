@@ -4,7 +4,7 @@ use std::path::Path;
 
 use grid_match::{MatchParams, match_maps};
 use ogm_core::Se2;
-use ogm_merge::{Method, RfidParams, RobotMap, align};
+use ogm_merge::{RfidParams, RobotMap, TagMethod, align_by_tags};
 use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 
 use super::record::{Answered, Answers, MATCH};
@@ -14,8 +14,8 @@ use crate::judge::Overlap;
 use crate::measured::{Run, RunResult};
 use crate::options::Options;
 
-const METHODS: [(&str, Method); 3] =
-    [("#1", Method::Rfid1), ("#2", Method::Rfid2), ("#3", Method::Rfid3)];
+const METHODS: [(&str, TagMethod); 3] =
+    [("#1", TagMethod::Rfid1), ("#2", TagMethod::Rfid2), ("#3", TagMethod::Rfid3)];
 
 /// What the methods answer on every pair below `folder`.
 pub(super) fn run(options: &Options, folder: &Path) -> anyhow::Result<Vec<Answered>> {
@@ -54,7 +54,7 @@ fn answer(pair: &MapPair, seed: u64) -> anyhow::Result<Answers> {
             let source = RobotMap { map: &pair.source, tags: &source_tags };
             let params = RfidParams::default();
             for (name, method) in METHODS {
-                let report = align(method, &target, &source, &params)?;
+                let report = align_by_tags(method, &target, &source, &params, &())?;
                 answers.runs.push(run(name, RunResult::of(&report.outcome, errors)));
                 answers.target_from_source = report.outcome.found();
                 answers.evidence = report.evidence;
@@ -65,7 +65,7 @@ fn answer(pair: &MapPair, seed: u64) -> anyhow::Result<Answers> {
             answers.runs.extend(refused);
         }
     }
-    let matched = match_maps(&pair.target, &pair.source, &MatchParams::default())?;
+    let matched = match_maps(&pair.target, &pair.source, &MatchParams::default(), &())?;
     answers.runs.push(run(MATCH, RunResult::of(&matched.outcome, errors)));
     Ok(answers)
 }

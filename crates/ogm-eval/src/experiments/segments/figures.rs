@@ -68,7 +68,7 @@ pub(super) fn draw(maps: &[OccupancyGrid; 3]) -> anyhow::Result<Vec<Figure>> {
     }
     figures.push(surfaces(first, second)?);
     let fusion = grid_merge::FusionParams::default();
-    let team = merge_by_radon(first, &[second, third], &params, &fusion)?;
+    let team = merge_by_radon(first, &[second, third], &params, &fusion, &())?;
     let row = [first, second, third, &team.merged.map]
         .map(|map| crop_known(map).map(|cropped| occupancy(&cropped)));
     let row: Vec<RgbImage> = row.into_iter().collect::<Result<_, _>>()?;

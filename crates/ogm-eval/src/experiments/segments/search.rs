@@ -76,7 +76,7 @@ fn search(
     judged: Option<Judged<'_>>,
 ) -> anyhow::Result<Searched> {
     let start = Instant::now();
-    let found = align_by_radon(target, source, &RadonParams::default())?;
+    let found = align_by_radon(target, source, &RadonParams::default(), &())?;
     let milliseconds = start.elapsed().as_secs_f64() * 1e3;
     let result = RunResult::of(&found.outcome, judged.map(|(errors, _)| errors));
     let cell = target.frame().resolution();

@@ -1,7 +1,7 @@
 //! `ogm align`: the transform between two maps.
 
-use crate::Ending;
 use crate::args::AlignArgs;
+use crate::ending::Ending;
 use crate::input::Input;
 use crate::progress::Bar;
 use crate::search::{check, search};

@@ -3,7 +3,7 @@
 use ogm_merge::{PairReport, Verdict};
 use serde::Serialize;
 
-use crate::Ending;
+use crate::ending::Ending;
 use crate::input::MapFile;
 
 /// Version of every JSON object that `ogm` writes.

@@ -5,9 +5,10 @@ use grid_merge::{FusionParams, transform_grid};
 use ogm_io::{WriteOptions, write_map};
 
 use crate::args::ApplyArgs;
+use crate::ending::Ending;
 use crate::input::Input;
 use crate::progress::Bar;
-use crate::{Ending, output, terminal, text};
+use crate::{output, terminal, text};
 
 pub(crate) fn run(args: &ApplyArgs) -> anyhow::Result<Ending> {
     let input = Input::read(&args.map, args.quiet)?;
@@ -15,7 +16,7 @@ pub(crate) fn run(args: &ApplyArgs) -> anyhow::Result<Ending> {
     output::check(&[&args.output, &image], &input.paths(), args.force)?;
     let moved = {
         let bar = Bar::start("moving", args.quiet);
-        transform_grid(input.map(), &args.transform, &FusionParams::default(), &bar)
+        transform_grid(input.map(), &args.output_from_map, &FusionParams::default(), &bar)
             .with_context(|| format!("cannot move {} by --transform", input.name()))?
     };
     let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };

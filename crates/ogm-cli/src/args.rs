@@ -91,9 +91,9 @@ pub(crate) struct SearchArgs {
     #[arg(long, value_name = "MAP.yaml=TAGS.csv")]
     pub(crate) tags: Vec<String>,
     /// A transform that is already believed: maps points of B into A (match and carpin only)
-    #[arg(long, value_name = "X,Y,DEG", allow_hyphen_values = true, requires = "prior_sigma")]
-    #[arg(value_parser = transform)]
-    pub(crate) prior: Option<Se2>,
+    #[arg(long = "prior", id = "prior", value_name = "X,Y,DEG", allow_hyphen_values = true)]
+    #[arg(requires = "prior_sigma", value_parser = transform)]
+    pub(crate) prior_target_from_source: Option<Se2>,
     /// One standard deviation of the prior; the search is bounded at three
     #[arg(long, value_name = "M,DEG", allow_hyphen_values = true, requires = "prior")]
     pub(crate) prior_sigma: Option<Sigma>,
@@ -127,8 +127,9 @@ pub(crate) struct ApplyArgs {
     #[arg(value_name = "B.yaml")]
     pub(crate) map: PathBuf,
     /// Maps points of the map into the frame that it is written in
-    #[arg(long, value_name = "X,Y,DEG", allow_hyphen_values = true, value_parser = transform)]
-    pub(crate) transform: Se2,
+    #[arg(long = "transform", value_name = "X,Y,DEG", allow_hyphen_values = true)]
+    #[arg(value_parser = transform)]
+    pub(crate) output_from_map: Se2,
     /// The moved map; its image goes beside it
     #[arg(short, long, value_name = "OUT.yaml")]
     pub(crate) output: PathBuf,
@@ -149,9 +150,14 @@ pub(crate) struct ViewArgs {
     #[arg(value_name = "B.yaml", requires = "transform")]
     pub(crate) source: Option<PathBuf>,
     /// Maps points of B into A
-    #[arg(long, value_name = "X,Y,DEG", allow_hyphen_values = true, requires = "source")]
-    #[arg(value_parser = transform)]
-    pub(crate) transform: Option<Se2>,
+    #[arg(
+        long = "transform",
+        id = "transform",
+        value_name = "X,Y,DEG",
+        allow_hyphen_values = true
+    )]
+    #[arg(requires = "source", value_parser = transform)]
+    pub(crate) target_from_source: Option<Se2>,
     /// The picture
     #[arg(short, long, value_name = "OUT.png")]
     pub(crate) output: PathBuf,

@@ -9,9 +9,10 @@ use serde::Serialize;
 
 use crate::answer::SCHEMA;
 use crate::args::InfoArgs;
+use crate::ending::Ending;
 use crate::input::Input;
 use crate::progress::Wheel;
-use crate::{Ending, terminal};
+use crate::terminal;
 
 #[derive(Debug, Serialize)]
 struct Info {

@@ -6,6 +6,7 @@ mod align;
 mod answer;
 mod apply;
 mod args;
+mod ending;
 mod info;
 mod input;
 mod interrupt;
@@ -28,14 +29,8 @@ use ogm_core::Cancelled;
 use ogm_merge::MergeError;
 
 use crate::args::{Cli, Command};
+use crate::ending::Ending;
 use crate::usage::UsageError;
-
-/// How a command ended that could do its work.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Ending {
-    Done,
-    Refused,
-}
 
 fn main() -> ExitCode {
     let cli = Cli::parse();

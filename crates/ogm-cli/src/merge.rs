@@ -10,12 +10,13 @@ use serde::Serialize;
 
 use crate::answer::{PairAnswer, SCHEMA};
 use crate::args::MergeArgs;
+use crate::ending::Ending;
 use crate::input::{Input, MapFile};
 use crate::progress::Bar;
 use crate::search::{check, search};
 use crate::tags::logs_of;
 use crate::usage::UsageError;
-use crate::{Ending, output, terminal, text};
+use crate::{output, terminal, text};
 
 /// What was found and done.
 #[derive(Debug, Serialize)]

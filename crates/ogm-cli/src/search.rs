@@ -20,7 +20,7 @@ pub(crate) fn check(args: &SearchArgs, logs: &[Option<PathBuf>]) -> Result<(), U
         let message = format!("--method {name} needs --tags MAP.yaml=TAGS.csv for both maps");
         return Err(UsageError(message));
     }
-    if !method.takes_prior() && args.prior.is_some() {
+    if !method.takes_prior() && args.prior_target_from_source.is_some() {
         let message = format!("--method {name} takes no --prior; use --method match or carpin");
         return Err(UsageError(message));
     }
@@ -40,11 +40,13 @@ pub(crate) fn search(
     let robot = |map: usize| RobotMap { map: inputs[map].map(), tags: &tags[map] };
     let params = AlignParams {
         seed: args.seed,
-        prior: args.prior.zip(args.prior_sigma).map(|(target_from_source, sigma)| Prior {
-            target_from_source,
-            sigma_m: sigma.metres,
-            sigma_rad: sigma.degrees.to_radians(),
-        }),
+        prior: args.prior_target_from_source.zip(args.prior_sigma).map(
+            |(target_from_source, sigma)| Prior {
+                target_from_source,
+                sigma_m: sigma.metres,
+                sigma_rad: sigma.degrees.to_radians(),
+            },
+        ),
         matching: MatchParams { accept: args.accept, ..MatchParams::default() },
         ..AlignParams::default()
     };

@@ -5,9 +5,10 @@ use ogm_io::write_file;
 use ogm_view::{occupancy, overlay, png};
 
 use crate::args::ViewArgs;
+use crate::ending::Ending;
 use crate::input::Input;
+use crate::output;
 use crate::progress::Wheel;
-use crate::{Ending, output};
 
 pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
     let target = Input::read(&args.target, args.quiet)?;
@@ -17,9 +18,9 @@ pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
     output::check(&[&args.output], &paths, args.force)?;
     let _progress = Wheel::start("drawing", args.quiet);
     let cannot_draw = || format!("cannot draw {}", args.output.display());
-    let picture = match source.as_ref().zip(args.transform) {
-        Some((source, transform)) => {
-            overlay(target.map(), source.map(), transform).with_context(cannot_draw)?
+    let picture = match source.as_ref().zip(args.target_from_source) {
+        Some((source, target_from_source)) => {
+            overlay(target.map(), source.map(), target_from_source).with_context(cannot_draw)?
         }
         None => occupancy(target.map()),
     };

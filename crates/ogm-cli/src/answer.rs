@@ -26,7 +26,7 @@ impl Verdict {
     pub(crate) fn of(refusal: Option<&Refusal>) -> Self {
         match refusal {
             None => Self::Merged,
-            Some(Refusal::SeveralPoses { .. } | Refusal::Ambiguous { .. }) => Self::Ambiguous,
+            Some(refusal) if refusal.is_ambiguous() => Self::Ambiguous,
             Some(_) => Self::NoMatch,
         }
     }

@@ -61,11 +61,13 @@ pub use drive::{DriveParams, drive};
 pub use error::SimError;
 pub use floors::FloorKind;
 pub use labelled::{LabelledPair, Relation, labelled_pair};
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use pair::{SimulatedPair, simulate_pair};
 pub use params::{DriftParams, LidarParams, MappingParams, PairParams, TagParams};
 pub use plan::{Face, FloorPlan, SOURCE, TARGET};
 pub use run::{RobotRun, map_along_path, survey};
-pub use tags::{place_tags, tag_readings};
+pub use tags::tag_readings;
 pub use team::{SimulatedTeam, TeamMember, simulate_team};
 pub use truth::PairTruth;
 

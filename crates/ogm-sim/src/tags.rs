@@ -24,7 +24,7 @@ const TRIALS: usize = 200;
 ///
 /// # Errors
 /// A plan without enough reachable wall.
-pub fn place_tags(
+pub(crate) fn place_tags(
     plan: &FloorPlan,
     params: &TagParams,
     seed: u64,

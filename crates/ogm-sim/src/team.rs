@@ -8,7 +8,8 @@ use std::f64::consts::PI;
 use crate::draw::{Stream, generator};
 use crate::explore::{Part, explore, free_space};
 use crate::run::{frame_at_start, random_heading};
-use crate::{FloorPlan, PairParams, RobotRun, SimError, map_along_path, place_tags};
+use crate::tags::place_tags;
+use crate::{FloorPlan, PairParams, RobotRun, SimError, map_along_path};
 
 /// Share of a floor that a robot without a route explores: any two of them meet, and none sees all.
 const EXPLORED: f64 = 0.6;

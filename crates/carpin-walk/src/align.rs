@@ -36,7 +36,7 @@ pub struct Alignment {
 /// elsewhere, see [`Objective`](crate::Objective).
 ///
 /// Refuses with [`Refusal::TooLittleStructure`] if the maps have neither obstacles nor free cells
-/// in common, so that no transform is better than another, and with [`Refusal::NoOverlap`] if no
+/// in common, so that no transform is better than another, and with [`Refusal::NothingCompared`] if no
 /// walk came by a place where they can be compared.
 ///
 /// # Errors
@@ -98,11 +98,11 @@ fn search<R: Rules + Sync + ?Sized>(
         },
     );
     let Some(winner) = winner else {
-        return Ok(Outcome::Refused(Refusal::NoOverlap { have: 0, need: 1 }));
+        return Ok(Outcome::Refused(Refusal::NothingCompared));
     };
     let there = distance.psi_at(&winner.best);
     if there.common_classes == 0 || !there.psi.is_finite() {
-        return Ok(Outcome::Refused(Refusal::NoOverlap { have: 0, need: 1 }));
+        return Ok(Outcome::Refused(Refusal::NothingCompared));
     }
     // The start stays the start, to the bit.
     let at_start = winner.best == place;

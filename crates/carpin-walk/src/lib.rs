@@ -43,6 +43,8 @@ pub use align::{Alignment, align};
 pub use belief::{belief, occupancy};
 pub use distance::{Dissimilarity, MapDistance, psi};
 pub use error::WalkError;
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use params::{Around, DistanceParams, Objective, Params};
 pub use random_walk::{Acceptance, Drift, RandomWalk, Spread, TurnUnit};
 pub use rules::{Rules, WalkState};

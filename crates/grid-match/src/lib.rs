@@ -75,6 +75,8 @@ mod work;
 pub use error::MatchError;
 pub use evidence::{Evidence, Relaxed};
 pub use matching::{match_maps, match_prepared, score_pose};
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use params::{Effort, MatchParams, Prior};
 pub use prepare::PreparedMap;
 pub use report::{Hypothesis, MatchReport, WeakDirection};

@@ -108,7 +108,7 @@ fn search(
         .filter(|&index| found[index].evidence.is_comparable())
         .map(|index| hypothesis(target, source, &found, index, swapped))
         .collect();
-    let outcome = outcome(&hypotheses, target.resolution().max(source.resolution()), params);
+    let outcome = outcome(&hypotheses, params);
     let (work, exhausted) = (search.work.spent(), search.work.exhausted());
     Ok(MatchReport { hypotheses, outcome, work, exhausted })
 }
@@ -132,7 +132,8 @@ pub fn score_pose(
 fn too_little(map: &PreparedMap, params: &MatchParams) -> Option<Refusal> {
     let need = floor_index((params.min_wall_m / map.resolution()).ceil().min(1e15)).max(1);
     let have = map.occupied_cells;
-    (have < need).then_some(Refusal::TooLittleStructure { have, need })
+    let metres = |cells: usize| cells as f64 * map.resolution();
+    (have < need).then(|| Refusal::TooLittleWall { have_m: metres(have), need_m: metres(need) })
 }
 
 /// By what does not depend on origin, orientation or resolution, so that it rarely changes with
@@ -175,10 +176,10 @@ fn hypothesis(
     }
 }
 
-fn outcome(hypotheses: &[Hypothesis], resolution: f64, params: &MatchParams) -> Outcome<Se2> {
-    let cells = |metres: f64| floor_index(metres / resolution);
+fn outcome(hypotheses: &[Hypothesis], params: &MatchParams) -> Outcome<Se2> {
+    let need_m = params.min_wall_m;
     let Some(best) = hypotheses.first() else {
-        return Outcome::Refused(Refusal::NoOverlap { have: 0, need: cells(params.min_wall_m) });
+        return Outcome::Refused(Refusal::NoOverlap { have_m: 0.0, need_m });
     };
     if best.pose.probability >= params.accept {
         return Outcome::Found(best.pose.target_from_source);
@@ -190,10 +191,10 @@ fn outcome(hypotheses: &[Hypothesis], resolution: f64, params: &MatchParams) -> 
     Outcome::Refused(if poses > 1 {
         Refusal::SeveralPoses { poses, probability, need }
     } else if against > evidence.hit_m * 0.35 {
-        let (conflicts, compared) = (cells(against), cells(against + evidence.hit_m));
-        Refusal::Contradiction { conflicts, compared }
+        let compared_m = against + evidence.hit_m;
+        Refusal::ConflictingWalls { conflict_m: against, compared_m }
     } else if evidence.hit_m < params.min_wall_m {
-        Refusal::NoOverlap { have: cells(evidence.hit_m), need: cells(params.min_wall_m) }
+        Refusal::NoOverlap { have_m: evidence.hit_m, need_m }
     } else {
         Refusal::Unlikely { probability, need }
     })

@@ -2,14 +2,6 @@
 
 use ogm_core::{LOG_ODDS_LIMIT, Occupancy, log_odds};
 
-/// Independent evidence for one cell: the sum of two log-odds, clamped to ±[`LOG_ODDS_LIMIT`].
-///
-/// 0, no evidence either way, is neutral. The default fusion rule; Tsardoulias et al. name none.
-#[must_use]
-pub fn fuse_log_odds(a: f64, b: f64) -> f64 {
-    (a + b).clamp(-LOG_ODDS_LIMIT, LOG_ODDS_LIMIT)
-}
-
 /// Log-odds of every byte.
 ///
 /// All are multiples of 2⁻³² and p and 1 − p are exact opposites, so sums carry no rounding error:
@@ -78,23 +70,16 @@ fn bucket(l: f64) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{ByteOfLogOdds, LogOddsOfByte, fuse_log_odds};
+    use super::{ByteOfLogOdds, LogOddsOfByte};
     use ogm_core::{Occupancy, log_odds, probability_from_log_odds};
     use proptest::prelude::{prop_assert, proptest};
 
     #[test]
     fn independent_evidence_reinforces_and_weakens_as_worked_out() {
         for (a, b, expected) in [(0.8, 0.7, 0.903_226), (0.8, 0.3, 0.631_579), (0.8, 0.2, 0.5)] {
-            let fused = probability_from_log_odds(fuse_log_odds(log_odds(a), log_odds(b)));
+            let fused = probability_from_log_odds(log_odds(a) + log_odds(b));
             assert!((fused - expected).abs() < 5e-7, "{a} and {b} gave {fused}");
         }
-    }
-
-    #[test]
-    fn evidence_never_passes_the_limit_and_no_evidence_is_neutral() {
-        assert_eq!(fuse_log_odds(7.0, 6.0), 8.0);
-        assert_eq!(fuse_log_odds(-8.0, -8.0), -8.0);
-        assert_eq!(fuse_log_odds(1.25, 0.0), 1.25);
     }
 
     #[test]

@@ -43,8 +43,9 @@ mod verdict;
 pub use coarsen::coarsen;
 pub use coverage::{PlacedCoverage, merge_coverage};
 pub use error::FusionError;
-pub use evidence::fuse_log_odds;
 pub use merge::{Merged, PlacedMap, merge, transform_grid};
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use params::{ForwardRounding, FusionParams, FusionRule, GapTreatment, Interpolation, Mapping};
 
 #[cfg(doctest)]

@@ -43,7 +43,7 @@ pub struct Merged {
 /// The output is the bounding box of all maps, with yaw 0. Where the first map has yaw 0 in the
 /// reference frame and no other resolution is asked for, its lattice is kept and its cells are
 /// copied; so are those of every map that lies on that lattice. All others are resampled by
-/// [`FusionParams::mapping`], those of finer resolution after [`coarsen`]. By Tsardoulias et al.,
+/// [`FusionParams::mapping`], those of finer resolution after [`coarsen`](crate::coarsen()). By Tsardoulias et al.,
 /// section 4.4; there the second map is transformed and the first stays.
 ///
 /// # Errors

@@ -16,7 +16,7 @@ use crate::{Alignment, IcpError, IcpParams, Metric, Section, Termination, WallPo
 /// gives equal bits.
 ///
 /// Refuses with [`Refusal::TooLittleStructure`] if a set has fewer points than
-/// [`IcpParams::min_pairs`], and with [`Refusal::NoOverlap`] if fewer pairs than that are found.
+/// [`IcpParams::min_pairs`], and with [`Refusal::TooFewPairs`] if fewer pairs than that are found.
 /// A search that diverged gives back the start and says so in [`Alignment::termination`].
 ///
 /// # Errors
@@ -42,7 +42,7 @@ pub fn align(
         params.section_margin.resolve(spacing),
     );
     let Some(section) = section else {
-        return Ok(Outcome::Refused(Refusal::NoOverlap { have: 0, need }));
+        return Ok(Outcome::Refused(Refusal::TooFewPairs { have: 0, need }));
     };
     let in_target = target.points().iter().copied();
     let in_target = in_target.filter(|point| section.contains(point.position));
@@ -134,7 +134,7 @@ impl Search<'_> {
         matcher.pair(target_from_source, gate);
         let (have, need) = (matcher.pairs.len(), self.params.min_pairs);
         if have < need {
-            return Err(Refusal::NoOverlap { have, need });
+            return Err(Refusal::TooFewPairs { have, need });
         }
         Ok(())
     }

@@ -52,6 +52,8 @@ mod wall_points;
 pub use align::align;
 pub use convention::translate_then_rotate;
 pub use error::IcpError;
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use outcome::{Alignment, Section, Termination};
 pub use params::{IcpParams, Metric, Pairing};
 pub use start::{StartParams, search_start};

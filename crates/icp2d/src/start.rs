@@ -59,7 +59,7 @@ const HALVINGS: usize = 3;
 /// converges where the given start was further off than its gate.
 ///
 /// Refuses with [`Refusal::TooLittleStructure`] if either set is empty, and with
-/// [`Refusal::NoOverlap`] if no source point comes near the target.
+/// [`Refusal::TooFewPairs`] if no source point comes near the target.
 ///
 /// # Errors
 /// A non-finite start, or a parameter outside its range.
@@ -93,7 +93,7 @@ pub fn search_start(
         .copied()
         .collect();
     let Some(voters) = Voters::new(&near, init_target_from_source, params.max_points) else {
-        return Ok(Outcome::Refused(Refusal::NoOverlap { have: 0, need: 1 }));
+        return Ok(Outcome::Refused(Refusal::TooFewPairs { have: 0, need: 1 }));
     };
     let search = Search { index: &index, voters: &voters, step, finest: 1.5 * spacing };
     Ok(Outcome::Found(search.run(reach, params)))

@@ -37,6 +37,8 @@ mod reliability;
 mod strip;
 
 pub use extract::{Extraction, Stages, Statistics, extract_segments};
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use params::{BreakRule, DirectionRule, Params};
 
 #[cfg(doctest)]

@@ -37,6 +37,7 @@ mod occupancy_grid;
 mod outcome;
 mod parameter;
 mod progress;
+mod refusal;
 mod relative_pose;
 mod robot;
 mod se2;
@@ -56,9 +57,10 @@ pub use occupancy::{
     CellClass, ClassThresholds, LOG_ODDS_LIMIT, Occupancy, log_odds, probability_from_log_odds,
 };
 pub use occupancy_grid::OccupancyGrid;
-pub use outcome::{Outcome, Refusal};
+pub use outcome::Outcome;
 pub use parameter::{ParameterError, require};
 pub use progress::{Cancelled, Progress, Stage, Steps};
+pub use refusal::Refusal;
 pub use relative_pose::RelativePose;
 pub use robot::RobotId;
 pub use se2::Se2;

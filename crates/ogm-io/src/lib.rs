@@ -44,6 +44,8 @@ pub use disk::write_file;
 pub use error::{IoError, MapImageError, TagLogError, YamlError};
 pub use header::{MapHeader, MapMode};
 pub use map::{LoadedMap, read_map, read_map_with};
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use tag_columns::TAG_LOG_HEADER;
 pub use tags::{parse_tags, read_tags, write_tags};
 pub use warning::MapWarning;

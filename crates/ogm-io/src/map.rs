@@ -35,6 +35,15 @@ pub fn read_map(yaml: &Path) -> Result<LoadedMap, IoError> {
 
 /// Reads the map that the YAML file `yaml` describes, as `options` say.
 ///
+/// ```no_run
+/// use ogm_io::{ReadOptions, read_map_with};
+///
+/// // As nav2 reads it: what it saves as unknown comes back as free.
+/// let options = ReadOptions { literal_205: true, ..ReadOptions::default() };
+/// let map = read_map_with("map.yaml".as_ref(), &options)?.map;
+/// # Ok::<(), ogm_io::IoError>(())
+/// ```
+///
 /// # Errors
 /// A file that cannot be opened, a YAML that [`MapHeader::parse`] refuses, an image that
 /// [`MapHeader::read_image`] refuses.

@@ -40,6 +40,14 @@ pub fn write_tags(path: &Path, readings: &[TagReading]) -> Result<(), IoError> {
 
 /// The readings in the bytes of a tag log. Blank lines and spaces around values are ignored.
 ///
+/// ```
+/// use ogm_io::{TAG_LOG_HEADER, parse_tags};
+///
+/// let log = format!("{TAG_LOG_HEADER}\n7, 1.5, -0.25, 2.125\n");
+/// assert_eq!(parse_tags(log.as_bytes())?[0].range, 2.125);
+/// # Ok::<(), ogm_io::TagLogError>(())
+/// ```
+///
 /// # Errors
 /// Bytes that are not UTF-8, another header than [`TAG_LOG_HEADER`], a line without exactly four
 /// values, an identifier that is no `u32`, a number that is not finite, a negative range.

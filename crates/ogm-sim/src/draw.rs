@@ -18,6 +18,7 @@ pub(crate) enum Stream {
     Floor,
     Bend,
     Pair,
+    Route,
 }
 
 /// The generator of `stream` for the work item `item`.

@@ -50,8 +50,7 @@ const CURVE_CLEARANCE: f64 = 0.4;
 ///
 /// For reading simulated tags with the map of a real robot.
 ///
-/// Refused with [`Refusal::TooLittleStructure`], which then counts free cells, if no square metre
-/// of free space hangs together.
+/// Refused with [`Refusal::TooLittleFreeSpace`] if no square metre of free space hangs together.
 ///
 /// # Errors
 /// A clearance that is not above 0, a step below a millimetre, or a length that is not above 0 or
@@ -68,7 +67,11 @@ pub fn drive(
 }
 
 fn path_through(map: &OccupancyGrid, params: &DriveParams) -> Result<Vec<Point2<f64>>, Refusal> {
-    let refusal = |have| Refusal::TooLittleStructure { have, need: cells_in(SMALLEST_REGION, map) };
+    let cell = map.frame().resolution();
+    let refusal = |cells: usize| {
+        let have_m2 = cells as f64 * cell * cell;
+        Refusal::TooLittleFreeSpace { have_m2, need_m2: SMALLEST_REGION }
+    };
     let (space, nodes) = region(map, params.clearance).map_err(refusal)?;
     let mut rng = generator(params.seed, Stream::Drive, 0);
     let mut here = nodes[rng.random_range(0..nodes.len())];
@@ -240,7 +243,7 @@ mod tests {
         for cell in [Occupancy::UNKNOWN, Occupancy::OCCUPIED] {
             let map = OccupancyGrid::new(frame, Grid::filled(80, 80, cell).unwrap());
             let outcome = drive(&map, &DriveParams::default()).unwrap();
-            let expected = Refusal::TooLittleStructure { have: 0, need: 400 };
+            let expected = Refusal::TooLittleFreeSpace { have_m2: 0.0, need_m2: 1.0 };
             assert_eq!(outcome.refusal(), Some(&expected));
         }
         let nan = DriveParams { step: f64::NAN, ..DriveParams::default() };

@@ -1,6 +1,6 @@
 //! What cannot be simulated.
 
-use ogm_core::{GridError, ParameterError};
+use ogm_core::{GridError, ParameterError, RobotId};
 
 /// A plan, route or parameter that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -31,6 +31,12 @@ pub enum SimError {
         x: f64,
         /// Where, metres in the plan.
         y: f64,
+    },
+    /// A robot for which the plan has no route.
+    #[error("the plan has routes for two robots and none for {robot}; give it a path")]
+    NoRoute {
+        /// Which one.
+        robot: RobotId,
     },
     /// Fewer reachable walls than tags.
     #[error("only {placed} of {wanted} tags found a place on a reachable wall")]

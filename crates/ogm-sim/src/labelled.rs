@@ -1,7 +1,7 @@
 //! Pairs of maps with the right answer, drawn at random.
 
 use nalgebra::Vector2;
-use ogm_core::OccupancyGrid;
+use ogm_core::{OccupancyGrid, RobotId};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::PI;
@@ -12,7 +12,7 @@ use crate::explore::{Part, explore, free_space};
 use crate::navigate::FreeSpace;
 use crate::run::{bend, frame_at_start, random_heading};
 use crate::truth::{PairTruth, pair_truth};
-use crate::{FloorKind, FloorPlan, PairParams, Robot, RobotRun, SimError, map_along_path};
+use crate::{FloorKind, FloorPlan, PairParams, RobotRun, SOURCE, SimError, TARGET, map_along_path};
 
 /// Overlap of pairs that do.
 const OVERLAP: [f64; 2] = [0.15, 0.9];
@@ -91,17 +91,17 @@ impl Visit<'_> {
     fn maps(&self, planned: f64, rng: &mut ChaCha8Rng) -> Result<[RobotRun; 2], SimError> {
         let first = 1.0 / (1.0 + self.ratio * (1.0 - planned));
         let parts = [(first, self.normal), (self.ratio * first, -self.normal)];
-        let run = |robot: Robot, rng: &mut ChaCha8Rng| {
-            let index = robot as usize;
+        let run = |robot: RobotId, rng: &mut ChaCha8Rng| {
+            let index = usize::from(robot == SOURCE);
             let (share, normal) = parts[index];
             let floor = (self.plans[index], self.spaces[index]);
             mapped(floor, &self.params[index], robot, share, normal, rng)
         };
-        Ok([run(Robot::Target, rng)?, run(Robot::Source, rng)?])
+        Ok([run(TARGET, rng)?, run(SOURCE, rng)?])
     }
 
     fn truth(&self, [target, source]: &[RobotRun; 2]) -> Result<Option<PairTruth>, SimError> {
-        let bends = [bend(Robot::Target, &self.params[0]), bend(Robot::Source, &self.params[1])];
+        let bends = [bend(TARGET, &self.params[0]), bend(SOURCE, &self.params[1])];
         pair_truth(target, source, [&bends[0], &bends[1]])
     }
 }
@@ -110,7 +110,7 @@ impl Visit<'_> {
 fn mapped(
     (plan, space): (&FloorPlan, &FreeSpace),
     params: &PairParams,
-    robot: Robot,
+    robot: RobotId,
     share: f64,
     normal: Vector2<f64>,
     rng: &mut ChaCha8Rng,
@@ -199,8 +199,8 @@ fn unrelated(
         let normal = direction(rng);
         mapped((plan, &free_space(plan)?), params, robot, share, normal, rng)
     };
-    let target = run(target, &conditions.target, Robot::Target)?;
-    let source = run(source, &conditions.source, Robot::Source)?;
+    let target = run(target, &conditions.target, TARGET)?;
+    let source = run(source, &conditions.source, SOURCE)?;
     Ok(labelled([target, source], None, conditions))
 }
 

@@ -4,7 +4,7 @@
 //! Two robots drive through a [`FloorPlan`]. Each maps what its lidar sees into an occupancy grid
 //! in a frame of its own, at its start with a random heading, and reads ranges to radio tags on
 //! the walls. [`simulate_pair`] returns both maps and the motion between their frames, which no
-//! merging method is told.
+//! merging method is told; [`simulate_team`] sends any number of robots.
 //!
 //! ```
 //! use ogm_core::ClassThresholds;
@@ -53,6 +53,7 @@ mod rounds;
 mod run;
 mod symmetry;
 mod tags;
+mod team;
 mod truth;
 mod wander;
 
@@ -60,11 +61,14 @@ pub use drive::{DriveParams, drive};
 pub use error::SimError;
 pub use floors::FloorKind;
 pub use labelled::{LabelledPair, Relation, labelled_pair};
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use pair::{SimulatedPair, simulate_pair};
 pub use params::{DriftParams, LidarParams, MappingParams, PairParams, TagParams};
-pub use plan::{Face, FloorPlan, Robot};
+pub use plan::{Face, FloorPlan, SOURCE, TARGET};
 pub use run::{RobotRun, map_along_path, survey};
-pub use tags::{place_tags, tag_readings};
+pub use tags::tag_readings;
+pub use team::{SimulatedTeam, TeamMember, simulate_team};
 pub use truth::PairTruth;
 
 #[cfg(doctest)]

@@ -3,8 +3,7 @@
 use nalgebra::Point2;
 use ogm_core::{GridError, Se2, warp_nearest};
 
-use crate::run::{frame_at_start, random_heading};
-use crate::{FloorPlan, PairParams, Robot, RobotRun, SimError, map_along_path, place_tags};
+use crate::{FloorPlan, PairParams, RobotRun, SimError, TeamMember, simulate_team};
 
 /// Two robots that explored one plan.
 #[derive(Debug, Clone, PartialEq)]
@@ -45,20 +44,18 @@ impl SimulatedPair {
     }
 }
 
-/// Sends two robots along the routes of `plan`; each maps in a frame of its own, at its start
-/// with a random heading, so that the two lattices have nothing in common.
+/// Sends two robots along the routes of `plan`: [`simulate_team`] of two that go their own way.
+///
+/// # Panics
+/// Never: two robots come back.
 ///
 /// # Errors
 /// Parameters out of range, a blocked route, or too little wall for the tags.
 pub fn simulate_pair(plan: &FloorPlan, params: &PairParams) -> Result<SimulatedPair, SimError> {
-    params.check()?;
-    let tags = place_tags(plan, &params.tags, params.seed)?;
-    let run = |robot| {
-        let path = plan.path(robot, params.step)?;
-        let world_from_map = frame_at_start(&path, random_heading(params.seed, robot));
-        map_along_path(plan, &path, &tags, world_from_map, robot, params)
-    };
-    let (target, source) = (run(Robot::Target)?, run(Robot::Source)?);
+    let [target, source] = [TeamMember::default(), TeamMember::default()];
+    let team = simulate_team(plan, &[target, source], params)?;
+    let tags = team.tags;
+    let [target, source] = <[RobotRun; 2]>::try_from(team.robots).expect("a team of two");
     let target_from_source = target.world_from_map.between(&source.world_from_map);
     Ok(SimulatedPair { target, source, target_from_source, tags })
 }

@@ -1,20 +1,16 @@
 //! A floor plan: solid things on a floor, and where two robots go.
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::{CellIndex, Grid, GridFrame, Se2};
+use ogm_core::{CellIndex, Grid, GridFrame, RobotId, Se2};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use crate::SimError;
 
-/// One of the two robots of a pair.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Robot {
-    /// The robot whose map frame is kept.
-    Target,
-    /// The robot whose map is to be moved.
-    Source,
-}
+/// The first robot of a team; of a pair the one whose map frame is kept.
+pub const TARGET: RobotId = RobotId(0);
+/// The second robot of a team; of a pair the one whose map is to be moved.
+pub const SOURCE: RobotId = RobotId(1);
 
 /// One visible side of a solid; the solid lies to the left of `start` → `end`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -151,12 +147,13 @@ impl FloorPlan {
         self.size
     }
 
-    /// The way points of a robot, at least two.
+    /// The way points of a robot, at least two; none but the first two have a route of the plan.
     #[must_use]
-    pub fn route(&self, robot: Robot) -> &[Point2<f64>] {
+    pub fn route(&self, robot: RobotId) -> Option<&[Point2<f64>]> {
         match robot {
-            Robot::Target => &self.target_route,
-            Robot::Source => &self.source_route,
+            TARGET => Some(&self.target_route),
+            SOURCE => Some(&self.source_route),
+            _ => None,
         }
     }
 

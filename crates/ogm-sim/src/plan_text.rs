@@ -153,7 +153,7 @@ pub(crate) fn cut(walls: &[Wall], doors: &[Door]) -> Vec<Solid> {
 
 #[cfg(test)]
 mod tests {
-    use crate::{FloorPlan, Robot, SimError};
+    use crate::{FloorPlan, SOURCE, SimError};
     use nalgebra::Point2;
 
     const ROUTES: &str = "route target 1 1 2 2\nroute source 2 2\nroute source 1 1";
@@ -165,7 +165,7 @@ mod tests {
         for (x, solid) in [(1.59, true), (1.61, false), (2.39, false), (2.41, true)] {
             assert_eq!(plan.is_solid(Point2::new(x, 2.0)), solid, "x = {x}");
         }
-        assert_eq!(plan.route(Robot::Source), [[2.0, 2.0].into(), [1.0, 1.0].into()]);
+        assert_eq!(plan.route(SOURCE).unwrap(), [[2.0, 2.0].into(), [1.0, 1.0].into()]);
     }
 
     #[test]

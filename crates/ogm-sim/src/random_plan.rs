@@ -8,7 +8,7 @@ use crate::draft::{Draft, MARGIN, Room, THICKNESS};
 use crate::draw::{Stream, generator};
 use crate::rounds::rounds;
 use crate::symmetry::refuse_symmetric;
-use crate::{FloorPlan, Robot, SimError};
+use crate::{FloorPlan, SOURCE, SimError, TARGET};
 
 /// Plans drawn before giving up.
 const ATTEMPTS: u64 = 100;
@@ -53,7 +53,7 @@ impl FloorPlan {
         refuse_symmetric(&plan, SYMMETRIC_SHARE)?;
         let [target, source] = rounds(&plan, corridor, rooms, rng)?;
         let plan = plan.with_routes(target, source);
-        for robot in [Robot::Target, Robot::Source] {
+        for robot in [TARGET, SOURCE] {
             plan.path(robot, 0.05)?;
         }
         Ok(plan)
@@ -120,7 +120,7 @@ impl Building {
 #[cfg(test)]
 mod tests {
     use crate::navigate::FreeSpace;
-    use crate::{FloorPlan, Robot};
+    use crate::{FloorPlan, TARGET};
     use nalgebra::Point2;
 
     /// Points of a lattice of 0.1 m over the plan.
@@ -136,7 +136,7 @@ mod tests {
         for seed in 0..4 {
             let plan = FloorPlan::random(seed).unwrap();
             let (frame, solid) = plan.raster(0.05).unwrap();
-            let start = plan.route(Robot::Target)[0];
+            let start = plan.route(TARGET).unwrap()[0];
             let reached = FreeSpace::around(&solid, &frame, 0.25, start).unwrap().area();
             let room = lattice(&plan).filter(|&point| plan.is_clear(point, 0.25)).count();
             let share = reached / (0.01 * room as f64);

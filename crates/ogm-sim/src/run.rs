@@ -1,7 +1,7 @@
 //! One robot drives, scans and reads.
 
 use nalgebra::Point2;
-use ogm_core::{Grid, OccupancyGrid, Se2, TagReading, require};
+use ogm_core::{Grid, OccupancyGrid, RobotId, Se2, TagReading, require};
 use rand::RngExt;
 use rand_distr::StandardNormal;
 use std::f64::consts::PI;
@@ -13,7 +13,7 @@ use crate::mapping::{CellBox, Mapper};
 use crate::params::check_step;
 use crate::path::{headings, smooth};
 use crate::tags::read_along;
-use crate::{FloorPlan, PairParams, Robot, SimError};
+use crate::{FloorPlan, PairParams, SOURCE, SimError, TARGET};
 
 /// Furthest coordinate of a path, metres: cells are counted exactly up to there.
 const MAX_COORDINATE: f64 = 1e6;
@@ -43,12 +43,13 @@ impl FloorPlan {
     /// the curve would come too close to a wall.
     ///
     /// # Errors
-    /// A step below a millimetre, or way points that lead closer than 0.2 m to something.
-    pub fn path(&self, robot: Robot, step: f64) -> Result<Vec<Point2<f64>>, SimError> {
+    /// A step below a millimetre, way points that lead closer than 0.2 m to something, or a robot
+    /// that the plan has no route for.
+    pub fn path(&self, robot: RobotId, step: f64) -> Result<Vec<Point2<f64>>, SimError> {
         check_step(step)?;
         let is_clear = |point| self.is_clear(point, CLEARANCE);
-        smooth(self.route(robot), step, is_clear)
-            .map_err(|at| SimError::BlockedRoute { x: at.x, y: at.y })
+        let route = self.route(robot).ok_or(SimError::NoRoute { robot })?;
+        smooth(route, step, is_clear).map_err(|at| SimError::BlockedRoute { x: at.x, y: at.y })
     }
 }
 
@@ -59,8 +60,8 @@ pub(crate) fn frame_at_start(path: &[Point2<f64>], heading: f64) -> Se2 {
 }
 
 /// The random heading of a robot's map frame.
-pub(crate) fn random_heading(seed: u64, robot: Robot) -> f64 {
-    generator(seed, Stream::Heading, robot as u64).random_range(-PI..PI)
+pub(crate) fn random_heading(seed: u64, robot: RobotId) -> f64 {
+    generator(seed, Stream::Heading, robot.0.into()).random_range(-PI..PI)
 }
 
 /// Sends a robot along `path` (plan frame, as from [`FloorPlan::path`]) and maps what it sees in
@@ -75,7 +76,7 @@ pub fn map_along_path(
     path: &[Point2<f64>],
     tags: &[(u32, Point2<f64>)],
     world_from_map: Se2,
-    robot: Robot,
+    robot: RobotId,
     params: &PairParams,
 ) -> Result<RobotRun, SimError> {
     map_along_paths(plan, &[(robot, path)], tags, world_from_map, params, None)
@@ -94,9 +95,9 @@ pub fn survey(
     params: &PairParams,
 ) -> Result<RobotRun, SimError> {
     let world_from_map = Se2::new(0.0, 0.0, map_heading);
-    let target = plan.path(Robot::Target, params.step)?;
-    let source = plan.path(Robot::Source, params.step)?;
-    let paths = [(Robot::Target, target.as_slice()), (Robot::Source, source.as_slice())];
+    let target = plan.path(TARGET, params.step)?;
+    let source = plan.path(SOURCE, params.step)?;
+    let paths = [(TARGET, target.as_slice()), (SOURCE, source.as_slice())];
     let size = plan.size();
     // A corner on a lattice line belongs to the cell inside the plan.
     let inset = 1e-6;
@@ -109,7 +110,7 @@ pub fn survey(
 
 fn map_along_paths(
     plan: &FloorPlan,
-    paths: &[(Robot, &[Point2<f64>])],
+    paths: &[(RobotId, &[Point2<f64>])],
     tags: &[(u32, Point2<f64>)],
     world_from_map: Se2,
     params: &PairParams,
@@ -139,8 +140,8 @@ fn map_along_paths(
     let mut lidar = Lidar::new(plan, &params.lidar);
     let mut readings = Vec::new();
     for drive in &drives {
-        let mut rng = generator(params.seed, Stream::Ranges, drive.robot as u64);
-        let mut compass = generator(params.seed, Stream::Compass, drive.robot as u64);
+        let mut rng = generator(params.seed, Stream::Ranges, drive.robot.0.into());
+        let mut compass = generator(params.seed, Stream::Compass, drive.robot.0.into());
         for index in scan_points(drive.path.len(), params) {
             let heading = drive.headings[index];
             let world_from_robot = Se2::new(drive.path[index].x, drive.path[index].y, heading);
@@ -153,7 +154,7 @@ fn map_along_paths(
         }
         let true_path: Vec<_> = drive.path.iter().map(|&p| map_from_world * p).collect();
         let tags: Vec<_> = tags.iter().map(|&(id, tag)| (id, map_from_world * tag)).collect();
-        let (seed, robot) = (params.seed, drive.robot as u64);
+        let (seed, robot) = (params.seed, drive.robot);
         readings.extend(read_along(&true_path, &drive.believed, &tags, &params.tags, seed, robot)?);
     }
     let keep = keep.and_then(|corners| {
@@ -164,14 +165,14 @@ fn map_along_paths(
 }
 
 /// How the map of a robot is bent, in the plan.
-pub(crate) fn bend(robot: Robot, params: &PairParams) -> Bend {
-    let mut rng = generator(params.seed, Stream::Bend, robot as u64);
+pub(crate) fn bend(robot: RobotId, params: &PairParams) -> Bend {
+    let mut rng = generator(params.seed, Stream::Bend, robot.0.into());
     Bend::draw(params.drift.bend, &mut rng)
 }
 
 /// Where a robot is and where it believes to be.
 struct Drive<'a> {
-    robot: Robot,
+    robot: RobotId,
     path: &'a [Point2<f64>],
     headings: Vec<f64>,
     bend: Bend,
@@ -181,12 +182,12 @@ struct Drive<'a> {
 
 impl<'a> Drive<'a> {
     fn new(
-        robot: Robot,
+        robot: RobotId,
         path: &'a [Point2<f64>],
         map_from_world: Se2,
         params: &PairParams,
     ) -> Self {
-        let mut rng = generator(params.seed, Stream::Drift, robot as u64);
+        let mut rng = generator(params.seed, Stream::Drift, robot.0.into());
         let bend = bend(robot, params);
         let mut error = nalgebra::Vector2::zeros();
         let mut before = path.first();

@@ -1,14 +1,14 @@
 //! Radio tags on the walls, and what a robot reads of them.
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::TagReading;
+use ogm_core::{RobotId, TagReading};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::StandardNormal;
 
 use crate::draw::{Stream, generator};
 use crate::navigate::FreeSpace;
-use crate::plan::{Face, Robot};
+use crate::plan::{Face, TARGET};
 use crate::{FloorPlan, SimError, TagParams};
 
 /// A tag hangs where a robot of this radius can stand in front of it, metres.
@@ -24,15 +24,15 @@ const TRIALS: usize = 200;
 ///
 /// # Errors
 /// A plan without enough reachable wall.
-pub fn place_tags(
+pub(crate) fn place_tags(
     plan: &FloorPlan,
     params: &TagParams,
     seed: u64,
 ) -> Result<Vec<(u32, Point2<f64>)>, SimError> {
     let mut rng = generator(seed, Stream::TagPlaces, 0);
     let (frame, solid) = plan.raster(0.05)?;
-    let start = plan.route(Robot::Target)[0];
-    let room = FreeSpace::around(&solid, &frame, ROBOT_RADIUS, start);
+    let start = plan.route(TARGET).and_then(|route| route.first());
+    let room = start.and_then(|&start| FreeSpace::around(&solid, &frame, ROBOT_RADIUS, start));
     let faces: Vec<Face> = plan.wall_faces().collect();
     let mut tags: Vec<(u32, Point2<f64>)> = Vec::with_capacity(params.count.min(1024));
     let mut spacing = SPACING;
@@ -83,7 +83,7 @@ pub fn tag_readings(
     params: &TagParams,
     seed: u64,
 ) -> Result<Vec<TagReading>, SimError> {
-    read_along(path, path, tags, params, seed, 0)
+    read_along(path, path, tags, params, seed, TARGET)
 }
 
 /// Readings taken at `path` by a robot that believes itself at `believed`.
@@ -93,10 +93,10 @@ pub(crate) fn read_along(
     tags: &[(u32, Point2<f64>)],
     params: &TagParams,
     seed: u64,
-    robot: u64,
+    robot: RobotId,
 ) -> Result<Vec<TagReading>, SimError> {
     params.check()?;
-    let mut offsets = generator(seed, Stream::TagOffsets, robot);
+    let mut offsets = generator(seed, Stream::TagOffsets, robot.0.into());
     let displaced: Vec<(u32, Point2<f64>)> = tags
         .iter()
         .map(|&(id, tag)| {
@@ -104,7 +104,7 @@ pub(crate) fn read_along(
             (id, tag + offset * params.tag_position_sigma)
         })
         .collect();
-    let mut rng = generator(seed, Stream::TagRanges, robot);
+    let mut rng = generator(seed, Stream::TagRanges, robot.0.into());
     let mut readings = Vec::new();
     for (position, &robot_position) in path.iter().zip(believed) {
         for &(tag_id, tag) in &displaced {

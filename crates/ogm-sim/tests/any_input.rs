@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Outcome, Se2};
-use ogm_sim::{DriveParams, FloorPlan, PairParams, Robot, drive, map_along_path};
+use ogm_sim::{DriveParams, FloorPlan, PairParams, SOURCE, TARGET, drive, map_along_path};
 use proptest::prelude::{Strategy, any, prop, prop_assert, proptest};
 
 fn line() -> impl Strategy<Value = String> {
@@ -23,8 +23,8 @@ proptest! {
     fn any_text_is_a_plan_or_an_error(lines in prop::collection::vec(line(), 0..12)) {
         let text = format!("size 6 6\nroute target 1 1 2 2\nroute source 2 2 3 1\n{}", lines.join("\n"));
         if let Ok(plan) = FloorPlan::parse(&text) {
-            for robot in [Robot::Target, Robot::Source] {
-                prop_assert!(plan.route(robot).len() >= 2);
+            for robot in [TARGET, SOURCE] {
+                prop_assert!(plan.route(robot).is_some_and(|route| route.len() >= 2));
                 if let Ok(path) = plan.path(robot, 0.1) {
                     prop_assert!(path.iter().all(|&p| !plan.is_solid(p)));
                 }
@@ -53,7 +53,7 @@ proptest! {
 fn paths_that_are_none_are_errors() {
     let plan = FloorPlan::plan_a();
     let send = |path: &[Point2<f64>], world_from_map| {
-        map_along_path(&plan, path, &[], world_from_map, Robot::Target, &PairParams::default())
+        map_along_path(&plan, path, &[], world_from_map, TARGET, &PairParams::default())
     };
     assert!(send(&[], Se2::identity()).is_err());
     assert!(send(&[Point2::new(f64::NAN, 1.0)], Se2::identity()).is_err());

@@ -3,8 +3,8 @@
 use nalgebra::Point2;
 use ogm_core::{ClassThresholds, OccupancyGrid, Se2};
 use ogm_sim::{
-    DriftParams, FloorPlan, LidarParams, MappingParams, PairParams, Robot, RobotRun, SimError,
-    SimulatedPair, map_along_path, simulate_pair, survey,
+    DriftParams, FloorPlan, LidarParams, MappingParams, PairParams, RobotRun, SOURCE, SimError,
+    SimulatedPair, TARGET, map_along_path, simulate_pair, survey,
 };
 
 /// Fewer beams and coarser cells than the default, for debug builds.
@@ -117,7 +117,7 @@ fn two_robots_share_about_three_fifths_of_what_they_see() {
 #[test]
 fn robots_keep_clear_of_everything_in_the_plan() {
     for plan in [FloorPlan::plan_a(), FloorPlan::plan_b()] {
-        for robot in [Robot::Target, Robot::Source] {
+        for robot in [TARGET, SOURCE] {
             let path = plan.path(robot, 0.03).unwrap();
             assert!(path.len() > 1000);
             for point in path {
@@ -186,11 +186,11 @@ fn coverage_is_what_the_map_knows_and_the_robot_was_there() {
 #[test]
 fn drift_moves_the_map_off_the_truth_and_its_absence_does_not() {
     let plan = FloorPlan::plan_a();
-    let path = plan.path(Robot::Source, 0.03).unwrap();
+    let path = plan.path(SOURCE, 0.03).unwrap();
     let frame = Se2::new(1.0, 2.0, 0.4);
     let run = |drift| {
         let params = PairParams { drift, ..quick(6) };
-        map_along_path(&plan, &path, &[], frame, Robot::Source, &params).unwrap()
+        map_along_path(&plan, &path, &[], frame, SOURCE, &params).unwrap()
     };
     let end = |run: &RobotRun| {
         let (believed, truth) = (run.path.last().unwrap(), path.last().unwrap());

@@ -1,6 +1,6 @@
 //! Random plans are buildings that robots can explore and that look like nothing but themselves.
 
-use ogm_sim::{FloorPlan, LidarParams, MappingParams, PairParams, Robot, simulate_pair};
+use ogm_sim::{FloorPlan, LidarParams, MappingParams, PairParams, SOURCE, TARGET, simulate_pair};
 
 const SEEDS: std::ops::Range<u64> = 0..8;
 
@@ -11,7 +11,7 @@ fn random_plans_are_of_the_size_asked_for_and_can_be_explored() {
         let size = plan.size();
         let (short, long) = (size.x.min(size.y), size.x.max(size.y));
         assert!((10.0..14.0).contains(&short) && (12.0..17.0).contains(&long), "{size}");
-        for robot in [Robot::Target, Robot::Source] {
+        for robot in [TARGET, SOURCE] {
             let path = plan.path(robot, 0.03).unwrap();
             let length = 0.03 * path.len() as f64;
             assert!((15.0..110.0).contains(&length), "plan {seed}: {length} m");

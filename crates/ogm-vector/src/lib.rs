@@ -34,6 +34,8 @@ mod vector;
 
 pub use group::{Group, Member};
 pub use histogram::angle_histogram;
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use params::{Estimator, GroupRule, Params, SecondGroup, Weights};
 pub use vector::{OgmVector, ogm_vector, wall_rotation};
 

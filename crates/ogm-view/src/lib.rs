@@ -1,7 +1,7 @@
 //! Occupancy grid maps as pictures.
 //!
 //! [`occupancy`] shows one map in greys, [`overlay`] two maps on each other. Where a map has more
-//! than [`MAX_SIDE`] cells a side a pixel shows several of them, and walls win, so that a thin wall
+//! than 1000 cells a side a pixel shows several of them, and walls win, so that a thin wall
 //! of a large map stays visible. The highest row of a grid is at the top of its picture.
 //!
 //! ```
@@ -22,9 +22,11 @@ mod palette;
 mod raster;
 
 pub use error::ViewError;
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use overlay::overlay;
 pub use palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL, UNKNOWN};
-pub use raster::{MAX_SIDE, crop_known, enlarge, occupancy, paint, png, reduce, side_by_side};
+pub use raster::{crop_known, enlarge, occupancy, paint, png, reduce, side_by_side};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -8,7 +8,7 @@ use crate::ViewError;
 use crate::palette::{BLANK, UNKNOWN};
 
 /// Pictures of more cells a side show several cells a pixel.
-pub const MAX_SIDE: usize = 1000;
+pub(crate) const MAX_SIDE: usize = 1000;
 
 /// The map in greys: free light, occupied dark, unknown in the middle. Where a pixel holds several
 /// cells it shows the most occupied, so that thin walls stay.
@@ -54,7 +54,7 @@ pub fn crop_known(map: &OccupancyGrid) -> Result<OccupancyGrid, ViewError> {
     Ok(OccupancyGrid::new(frame, grid))
 }
 
-/// Square blocks of cells as one cell, so that no side exceeds [`MAX_SIDE`].
+/// Square blocks of cells as one cell, so that no side exceeds 1000 cells.
 ///
 /// # Panics
 /// Never: every block holds at least its corner cell.
@@ -99,7 +99,7 @@ pub fn enlarge(image: &RgbImage, factor: u32) -> RgbImage {
     })
 }
 
-/// Pictures in a row on white, `gap` pixels apart, scaled down if they exceed [`MAX_SIDE`] in
+/// Pictures in a row on white, `gap` pixels apart, scaled down if they exceed 1000 pixels in
 /// width together.
 #[must_use]
 pub fn side_by_side(images: &[RgbImage], gap: u32) -> RgbImage {

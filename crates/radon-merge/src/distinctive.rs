@@ -40,7 +40,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Counts over equal bins.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Histogram {
+pub(crate) struct Histogram {
     /// Lower end of the first bin.
     pub from: f64,
     /// Upper end of the last bin.
@@ -55,7 +55,7 @@ impl Histogram {
     /// A bin holds its upper end and not its lower one: distances are positive and the greatest
     /// is the end of the range, so a straight wall fills all bins alike.
     #[must_use]
-    pub fn new(values: &[f64], from: f64, to: f64, bins: usize) -> Self {
+    pub(crate) fn new(values: &[f64], from: f64, to: f64, bins: usize) -> Self {
         let mut counts = vec![0; bins];
         let scale = if to > from { bins as f64 / (to - from) } else { 0.0 };
         for value in values {
@@ -76,7 +76,7 @@ impl Histogram {
 /// The distance histogram over [0, max d] and the arc histogram over [min ω, max ω] of a segment
 /// (Saeedi et al., Eqs. 8 and 9).
 #[must_use]
-pub fn histograms(signature: &Signature, params: &DistinctiveParams) -> [Histogram; 2] {
+pub(crate) fn histograms(signature: &Signature, params: &DistinctiveParams) -> [Histogram; 2] {
     let (_, far) = range(&signature.distance);
     let (low, high) = range(&signature.arc);
     [

@@ -55,20 +55,22 @@ mod verify;
 pub use approximate::{PoseRule, approximate_pose};
 pub use correlation::{Correlation, correlate};
 pub use counts::JointCounts;
-pub use distinctive::{DistinctiveParams, Histogram, histograms, is_distinctive};
+pub use distinctive::{DistinctiveParams, is_distinctive};
 pub use edges::{EdgeParams, detect_edges};
 pub use entropy::{EntropyHistogram, entropy, joint_entropy};
 pub use error::RadonError;
 pub use hypotheses::{Hypothesis, HypothesisParams};
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use params::RadonParams;
 pub use radon::{RadonImage, radon};
-pub use rotation::{RotationCorrelation, RotationParams, peak_correction, tune_by_peaks};
+pub use rotation::{RotationCorrelation, RotationParams, tune_by_peaks};
 pub use search::{Candidate, MapStages, RadonMatch, find_transform};
 pub use signature::{Signature, signature};
 pub use similarity::{
     Disagreement, Objective, TranslationParams, TranslationWindow, similarity, tune_translation,
 };
-pub use smoothing::{scan_line, smooth_edges};
+pub use smoothing::smooth_edges;
 pub use tracing::{SegmentParams, WallSegment, distinctive_segments};
 pub use verify::{Verification, VerificationParams, WallShare, verification_index, verify};
 

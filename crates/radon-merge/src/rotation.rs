@@ -33,8 +33,7 @@ impl RotationParams {
 
 /// The correction that brings the peak of the source, at `source_peak`, onto that of the target:
 /// their difference modulo half a turn, in [−π/2, π/2) (Saeedi et al., Eq. 15).
-#[must_use]
-pub fn peak_correction(target_peak: f64, source_peak: f64) -> f64 {
+fn peak_correction(target_peak: f64, source_peak: f64) -> f64 {
     wrap_period(target_peak - source_peak, PI)
 }
 

@@ -83,7 +83,7 @@ const PROPOSED: f64 = 0.9;
 ///
 /// Every hypothesis of a pair of segments is scored by its walls, the best go through the later
 /// blocks, and those that pass the verification are left. If they do not agree, each is as likely
-/// as the others and the answer is [`Refusal::SeveralPoses`]; a map without distinctive segments is
+/// as the others and the answer is [`Refusal::SeveralVerified`]; a map without distinctive segments is
 /// refused, too. Equal input and seed give equal bits on any number of threads.
 ///
 /// # Errors
@@ -165,15 +165,7 @@ fn search(
     let outcome = match &choice {
         Ok(index) => Outcome::Found(candidates[*index].target_from_source()),
         Err(Some(refusal)) => Outcome::Refused(refusal.clone()),
-        Err(None) => {
-            let need = params.segments.points;
-            let have = maps.iter().map(|map| map.segments.len()).min().unwrap_or(0);
-            Outcome::Refused(if have == 0 {
-                Refusal::TooLittleStructure { have, need }
-            } else {
-                Refusal::NoOverlap { have: 0, need }
-            })
-        }
+        Err(None) => Outcome::Refused(Refusal::NoAlikeSegments { compared: proposals.compared }),
     };
     Ok(RadonMatch {
         maps: Some(maps),
@@ -257,18 +249,12 @@ fn choose(
     let rivals = candidates.iter().filter(|one| one.verified && apart(one, &candidates[best]));
     match rivals.count() {
         0 => Ok(best),
-        others => {
-            let poses = others + 1;
-            let probability = 1.0 / poses as f64;
-            Err(Some(Refusal::SeveralPoses { poses, probability, need: 1.0 }))
-        }
+        others => Err(Some(Refusal::SeveralVerified { poses: others + 1 })),
     }
 }
 
-/// What the best hypothesis failed by; a translation that did not settle counts as conflict.
+/// What the best hypothesis failed by.
 fn refusal_of(candidate: &Candidate, params: &VerificationParams) -> Refusal {
-    let counts = candidate.verification.counts;
-    let conflicts = counts.disagreement();
-    let unsettled = Refusal::Contradiction { conflicts, compared: conflicts + counts.agreement() };
-    candidate.verification.refusal(params).unwrap_or(unsettled)
+    let at_the_rim = Refusal::AtTheRim { radius: candidate.window.counts.width() / 2 };
+    candidate.verification.refusal(params).unwrap_or(at_the_rim)
 }

@@ -32,7 +32,7 @@ pub fn smooth_edges(edges: &Grid<bool>, max_gap: usize) -> Grid<bool> {
 /// Two consecutive cells that are neither neighbours nor `max_gap` or more apart become the cell
 /// midway, rounded down, and take no further part; all others stay.
 #[must_use]
-pub fn scan_line(set: &[usize], max_gap: usize) -> Vec<usize> {
+fn scan_line(set: &[usize], max_gap: usize) -> Vec<usize> {
     let mut kept = Vec::with_capacity(set.len());
     let mut rest = set;
     while let [first, others @ ..] = rest {

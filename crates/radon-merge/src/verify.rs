@@ -148,21 +148,24 @@ impl Verification {
         let area = self.counts.agreement() as f64 * self.resolution * self.resolution;
         let met = self.source_walls.met.min(self.target_walls.met);
         let need = params.min_wall_length / self.resolution;
-        if area < params.min_area || (met as f64) < need {
-            #[expect(
-                clippy::cast_possible_truncation,
-                clippy::cast_sign_loss,
-                reason = "saturates, and is only reported"
-            )]
-            return Some(Refusal::NoOverlap { have: met, need: need.ceil() as usize });
+        if (met as f64) < need {
+            let (have_m, need_m) = (met as f64 * self.resolution, params.min_wall_length);
+            return Some(Refusal::NoOverlap { have_m, need_m });
         }
-        if self.index.is_none_or(|index| index < params.min_index)
-            || self.entropy_offset > params.max_entropy_offset
-            || self.slide > params.max_slide
-        {
+        if area < params.min_area {
+            return Some(Refusal::TooLittleSharedArea { have_m2: area, need_m2: params.min_area });
+        }
+        if self.index.is_none_or(|index| index < params.min_index) {
             let conflicts = self.counts.disagreement();
             let compared = conflicts + self.counts.agreement();
-            return Some(Refusal::Contradiction { conflicts, compared });
+            return Some(Refusal::ConflictingCells { conflicts, compared });
+        }
+        let (cells, limit) = (self.entropy_offset, params.max_entropy_offset);
+        if cells > limit {
+            return Some(Refusal::EntropyElsewhere { cells, limit });
+        }
+        if self.slide > params.max_slide {
+            return Some(Refusal::Slides { share: self.slide, limit: params.max_slide });
         }
         let walls = if self.source_walls.share() < self.target_walls.share() {
             self.source_walls

@@ -173,7 +173,7 @@ fn a_floor_of_equal_halves_has_rivals() {
     }
     let whole = OccupancyGrid::new(frame, cells);
     let found = find_transform(&whole, &whole, &params(), &()).unwrap();
-    let rivals = Refusal::SeveralPoses { poses: 2, probability: 0.5, need: 1.0 };
+    let rivals = Refusal::SeveralVerified { poses: 2 };
     assert_eq!(found.outcome, Outcome::Refused(rivals));
     assert_eq!(found.accepted, None);
 }

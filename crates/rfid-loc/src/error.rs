@@ -9,7 +9,7 @@ pub enum TagError {
     /// A filter parameter outside its range.
     #[error(transparent)]
     Parameter(#[from] ParameterError),
-    /// A position that is not finite, or further than [`crate::MAX_COORDINATE`] from the origin.
+    /// A position that is not finite, or further than 10⁹ m from the origin.
     #[error("a position must be finite and within 1e9 m of the origin, got ({x}, {y})")]
     Position {
         /// x, metres.

@@ -7,7 +7,7 @@ use crate::window::{Peak, most_probable};
 use crate::{FilterParams, PositionRule, TagError};
 
 /// Coordinates beyond this many metres are errors: an `f64` resolves less than a micrometre there.
-pub const MAX_COORDINATE: f64 = 1e9;
+pub(crate) const MAX_COORDINATE: f64 = 1e9;
 
 /// Measured ranges may exceed the maximum range by this many sigma.
 const RANGE_SLACK_SIGMA: f64 = 4.0;

@@ -48,13 +48,15 @@ mod transform;
 mod window;
 
 pub use error::TagError;
-pub use filter::{MAX_COORDINATE, TagFilter};
+pub use filter::TagFilter;
 pub use localise::localise;
+/// The grids, frames and poses that the functions here take and give.
+pub use ogm_core;
 pub use params::{
     CertaintyWindow, FilterParams, PositionRule, RotationCentre, RotationParams, SelectionParams,
     TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation,
 };
-pub use quadrant::{AMBIGUOUS_ABOVE, Quadrant, QuadrantConfidence, WARNING_ABOVE, quadrant};
+pub use quadrant::{AMBIGUOUS_ABOVE, Quadrant, QuadrantConfidence, quadrant};
 pub use rotation::{RotationRule, TagRotation, tag_rotation};
 pub use selection::{TagPair, common_tags, select_tags};
 pub use tag_only::tag_only_transform;

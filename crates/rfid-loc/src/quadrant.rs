@@ -7,7 +7,7 @@ use ogm_core::{GridError, wrap_angle, wrap_period};
 use crate::TagError;
 
 /// Residuals above this, radians (20°), deserve a warning.
-pub const WARNING_ABOVE: f64 = 20.0 * TAU / 360.0;
+const WARNING_ABOVE: f64 = 20.0 * TAU / 360.0;
 
 /// Residuals above this, radians (35°), leave two quarter turns nearly as likely.
 pub const AMBIGUOUS_ABOVE: f64 = 35.0 * TAU / 360.0;

@@ -5,7 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::Point2;
 use ogm_core::{Outcome, Refusal, TagEstimate};
 
-use crate::{MAX_COORDINATE, SelectionParams, TagError};
+use crate::filter::MAX_COORDINATE;
+use crate::{SelectionParams, TagError};
 
 /// One tag as two maps know it. Made by [`common_tags`], so both estimates are usable.
 #[derive(Debug, Clone, Copy, PartialEq)]

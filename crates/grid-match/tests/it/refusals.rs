@@ -33,7 +33,7 @@ fn maps_without_structure_are_refused_as_such() {
         for (target, source) in [(map, &building), (&building, map), (map, map)] {
             let report = matched(target, source);
             let reason = report.outcome.refusal();
-            assert!(matches!(reason, Some(Refusal::TooLittleStructure { .. })), "{reason:?}");
+            assert!(matches!(reason, Some(Refusal::TooLittleWall { .. })), "{reason:?}");
             assert!(report.hypotheses.is_empty());
         }
     }

@@ -14,7 +14,7 @@ fn refusal(target: Vec<WallPoint>, source: Vec<WallPoint>) -> Refusal {
 #[test]
 fn maps_of_different_places_are_refused() {
     let elsewhere = moved(&floor(), Se2::new(400.0, 0.0, 0.0));
-    let none = Refusal::NoOverlap { have: 0, need: 10 };
+    let none = Refusal::TooFewPairs { have: 0, need: 10 };
     assert_eq!(refusal(floor(), elsewhere), none);
     // The bounding boxes meet here, the walls do not.
     let inside = wall([95, 40], [95, 90], Some(-Vector2::x()));
@@ -98,5 +98,5 @@ fn a_start_beyond_all_bounds_is_refused_and_does_not_overflow() {
     let floor = set(floor());
     let start = Se2::new(1e300, -1e300, 1.0);
     let outcome = align(&floor, &floor, start, &IcpParams::paper()).unwrap();
-    assert!(matches!(outcome.refusal(), Some(Refusal::NoOverlap { .. })));
+    assert!(matches!(outcome.refusal(), Some(Refusal::TooFewPairs { .. })));
 }

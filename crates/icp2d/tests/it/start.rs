@@ -85,7 +85,7 @@ fn walls_out_of_reach_are_refused_and_nonsense_is_an_error() {
     let room = room();
     let far_target_from_source = Se2::new(50.0, 0.0, 0.0);
     let outcome = search_start(&room, &room, far_target_from_source, &StartParams::default());
-    assert_eq!(outcome, Ok(Outcome::Refused(Refusal::NoOverlap { have: 0, need: 1 })));
+    assert_eq!(outcome, Ok(Outcome::Refused(Refusal::TooFewPairs { have: 0, need: 1 })));
 
     let nan_target_from_source = Se2::new(f64::NAN, 0.0, 0.0);
     let outcome = search_start(&room, &room, nan_target_from_source, &StartParams::default());

@@ -1,8 +1,8 @@
 //! What X5 is run on: rescue-like maps of 100 × 100 cells and starts off by a stated amount.
 
 use carpin_walk::{DistanceParams, MapDistance, Placement};
-use ogm_core::{GridFrame, Occupancy, OccupancyGrid, Se2, warp_nearest, wrap_period};
-use ogm_sim::{FloorPlan, PairParams, Robot, RobotRun, map_along_path, survey};
+use ogm_core::{GridFrame, Occupancy, OccupancyGrid, RobotId, Se2, warp_nearest, wrap_period};
+use ogm_sim::{FloorPlan, PairParams, RobotRun, SOURCE, TARGET, map_along_path, survey};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -74,9 +74,9 @@ impl RescuePair {
     /// The robots of Carpin and Birk in one building, in map frames turned against each other.
     pub(crate) fn of(plan: &FloorPlan, coverage: Coverage, seed: u64) -> anyhow::Result<Self> {
         let heading = generator(seed, 0).random_range(-HEADING..HEADING).to_radians();
-        let map = |robot: Robot, heading: f64| -> anyhow::Result<(OccupancyGrid, Se2)> {
+        let map = |robot: RobotId, heading: f64| -> anyhow::Result<(OccupancyGrid, Se2)> {
             // Robots that cover the whole building differ by the seed of their noise.
-            let noise = 2 * seed + u64::from(robot == Robot::Source);
+            let noise = 2 * seed + u64::from(robot == SOURCE);
             let mut robots = PairParams { seed: noise, ..PairParams::cb() };
             robots.mapping.resolution = plan.size().max() / SPAN;
             let run = match coverage {
@@ -90,8 +90,8 @@ impl RescuePair {
             };
             Ok((square(&run.map)?, run.world_from_map))
         };
-        let (target, world_from_target) = map(Robot::Target, 0.0)?;
-        let (source, world_from_source) = map(Robot::Source, heading)?;
+        let (target, world_from_target) = map(TARGET, 0.0)?;
+        let (source, world_from_source) = map(SOURCE, heading)?;
         let target_from_source = world_from_target.between(&world_from_source);
         Ok(Self { target, source, target_from_source, seed })
     }
@@ -148,7 +148,7 @@ impl RescuePair {
 const KEPT: f64 = 1.0 / 1.4;
 
 /// The run with a map of its robot's side of the building only.
-fn half(plan: &FloorPlan, robot: Robot, mut run: RobotRun) -> RobotRun {
+fn half(plan: &FloorPlan, robot: RobotId, mut run: RobotRun) -> RobotRun {
     let axis = usize::from(plan.size().y > plan.size().x);
     let length = plan.size()[axis];
     let (frame, world_from_map) = (*run.map.frame(), run.world_from_map);
@@ -156,8 +156,8 @@ fn half(plan: &FloorPlan, robot: Robot, mut run: RobotRun) -> RobotRun {
     for position in 0..cells.cells().len() {
         let at = (world_from_map * frame.cell_centre(cells.index_of(position)))[axis] / length;
         let kept = match robot {
-            Robot::Target => at <= KEPT,
-            Robot::Source => at >= 1.0 - KEPT,
+            TARGET => at <= KEPT,
+            _ => at >= 1.0 - KEPT,
         };
         if !kept {
             cells.cells_mut()[position] = Occupancy::UNKNOWN;

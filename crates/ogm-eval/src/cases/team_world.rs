@@ -2,7 +2,7 @@
 
 use nalgebra::Point2;
 use ogm_core::{GridFrame, Occupancy, OccupancyGrid, Se2, warp_nearest};
-use ogm_sim::{FloorPlan, PairParams, Robot, map_along_path};
+use ogm_sim::{FloorPlan, PairParams, SOURCE, TARGET, map_along_path};
 
 /// Metres a cell; the paper prints none.
 pub(crate) const CELL: f64 = 0.05;
@@ -48,8 +48,7 @@ impl Printed {
 pub(crate) fn team(seed: u64) -> anyhow::Result<[OccupancyGrid; 3]> {
     let plan = FloorPlan::plan_b();
     let params = PairParams { seed, ..PairParams::sa() };
-    let (first, second) =
-        (plan.path(Robot::Target, params.step)?, plan.path(Robot::Source, params.step)?);
+    let (first, second) = (plan.path(TARGET, params.step)?, plan.path(SOURCE, params.step)?);
     // The third robot drives the later part of the first one's way, backwards.
     let third: Vec<Point2<f64>> = first[first.len() / 3..].iter().rev().copied().collect();
     let middle = plan.size() / 2.0;
@@ -62,9 +61,9 @@ pub(crate) fn team(seed: u64) -> anyhow::Result<[OccupancyGrid; 3]> {
         square(&run.map)
     };
     Ok([
-        map(&first, world_from_first, Robot::Target, seed)?,
-        map(&second, world_from_second, Robot::Source, seed)?,
-        map(&third, world_from_third, Robot::Source, seed.wrapping_add(1))?,
+        map(&first, world_from_first, TARGET, seed)?,
+        map(&second, world_from_second, SOURCE, seed)?,
+        map(&third, world_from_third, SOURCE, seed.wrapping_add(1))?,
     ])
 }
 

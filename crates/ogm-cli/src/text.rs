@@ -6,8 +6,6 @@ use std::path::Path;
 use grid_merge::Merged;
 use ogm_core::{OccupancyGrid, Outcome, Se2};
 
-use ogm_merge::Verdict;
-
 use crate::answer::PairAnswer;
 use crate::terminal::highlight;
 
@@ -27,8 +25,8 @@ pub(crate) fn pair(answer: &PairAnswer) -> String {
         Outcome::Found(_) => {
             writeln!(text, "{}: {source} lies on {target}", highlight(verdict, GREEN))
         }
-        Outcome::Refused(refusal) if report.verdict() == Verdict::Ambiguous => {
-            writeln!(text, "{}: {refusal}", highlight(verdict, YELLOW))
+        Outcome::Refused(refusal) if refusal.is_ambiguous() => {
+            writeln!(text, "{}: {}", highlight(verdict, YELLOW), refusal.detail())
         }
         Outcome::Refused(refusal) => writeln!(text, "{}: {refusal}", highlight(verdict, RED)),
     };

@@ -2,7 +2,7 @@
 
 use grid_match::{Evidence, MatchReport, PreparedMap, score_pose};
 use nalgebra::Matrix3;
-use ogm_core::{ClassThresholds, OccupancyGrid, Outcome, Progress, Refusal, Se2};
+use ogm_core::{ClassThresholds, OccupancyGrid, Outcome, Progress, Se2};
 use radon_merge::RadonMatch;
 
 use crate::walk::CarpinReport;
@@ -41,7 +41,7 @@ impl PairReport {
     pub fn verdict(&self) -> Verdict {
         match &self.outcome {
             Outcome::Found(_) => Verdict::Merged,
-            Outcome::Refused(refusal) if is_ambiguous(refusal) => Verdict::Ambiguous,
+            Outcome::Refused(refusal) if refusal.is_ambiguous() => Verdict::Ambiguous,
             Outcome::Refused(_) => Verdict::NoMatch,
         }
     }
@@ -51,11 +51,6 @@ impl PairReport {
     pub fn probability(&self) -> Option<f64> {
         self.hypotheses.first().and_then(|best| best.probability)
     }
-}
-
-/// Whether several answers fit, rather than none.
-fn is_ambiguous(refusal: &Refusal) -> bool {
-    matches!(refusal, Refusal::Ambiguous { .. } | Refusal::SeveralPoses { .. })
 }
 
 /// Whether two maps match.

@@ -1,7 +1,7 @@
 //! Whether two maps show the same walls where they lie over each other.
 
 use nalgebra::Point2;
-use ogm_core::{ClassThresholds, NearestCells, OccupancyGrid, Se2};
+use ogm_core::{ClassThresholds, NearestWall, OccupancyGrid, Se2};
 
 use crate::WallAgreement;
 
@@ -19,7 +19,7 @@ pub(crate) fn wall_agreement(
     for (map, other, map_from_other) in
         [(target, source, target_from_source), (source, target, target_from_source.inverse())]
     {
-        let Some(nearest) = NearestCells::new(&map.occupied_mask(thresholds)) else { continue };
+        let Some(nearest) = NearestWall::new(map, thresholds) else { continue };
         for wall in other.occupied_points(thresholds) {
             let place: Point2<f64> = map_from_other * wall;
             let Some(index) = map.cell_at(place) else { continue };
@@ -27,9 +27,9 @@ pub(crate) fn wall_agreement(
                 continue;
             }
             counts.compared += 1;
-            let near = nearest.nearest(index).map(|cell| map.frame().cell_centre(cell));
             let reach = REACH_CELLS * map.frame().resolution();
-            counts.agreeing += usize::from(near.is_some_and(|near| (near - place).norm() <= reach));
+            let distance = (nearest.nearest_to(place) - place).norm();
+            counts.agreeing += usize::from(distance <= reach);
         }
     }
     counts

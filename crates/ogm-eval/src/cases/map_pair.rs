@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, ensure};
 use nalgebra::Point2;
-use ogm_core::{ClassThresholds, Length, NearestCells, OccupancyGrid, Se2};
+use ogm_core::{ClassThresholds, Length, NearestWall, OccupancyGrid, Se2};
 use serde::Deserialize;
 
 use crate::judge::{HALF_A_DOOR, Tolerance, Truth};
@@ -118,7 +118,7 @@ impl MapPair {
     /// truth: where both robots would have seen a tag.
     pub(crate) fn walls_in_both(&self, truth: &Truth) -> Vec<Point2<f64>> {
         let thresholds = ClassThresholds::default();
-        let Some(nearest) = NearestCells::new(&self.target.occupied_mask(&thresholds)) else {
+        let Some(nearest) = NearestWall::new(&self.target, &thresholds) else {
             return Vec::new();
         };
         let frame = self.target.frame();
@@ -126,8 +126,8 @@ impl MapPair {
         let mut walls = self.source.occupied_points(&thresholds);
         walls.retain(|&wall| {
             let image = truth.target_from_source * wall;
-            let near = self.target.cell_at(image).and_then(|index| nearest.nearest(index));
-            near.is_some_and(|near| (frame.cell_centre(near) - image).norm() <= reach)
+            let is_inside = self.target.cell_at(image).is_some();
+            is_inside && (nearest.nearest_to(image) - image).norm() <= reach
         });
         walls
     }

@@ -1,9 +1,7 @@
 //! The two mean squared errors of the walls between an estimated and the true transform.
 
 use nalgebra::Point2;
-use ogm_core::{
-    CellIndex, ClassThresholds, Grid, NearestCells, OccupancyGrid, Se2, l2_distance_sq,
-};
+use ogm_core::{ClassThresholds, Grid, NearestWall, OccupancyGrid, Se2, l2_distance_sq};
 
 use super::error::{PIXEL, PoseError, TransformError};
 
@@ -13,7 +11,7 @@ use super::error::{PIXEL, PoseError, TransformError};
 #[derive(Debug)]
 pub(crate) struct Overlap<'a> {
     target: &'a OccupancyGrid,
-    nearest_wall: Option<NearestCells>,
+    nearest_wall: Option<NearestWall>,
     true_target_from_source: Se2,
     walls: Vec<Point2<f64>>,
     centroid: Point2<f64>,
@@ -41,7 +39,7 @@ impl<'a> Overlap<'a> {
         let sum = walls.iter().fold(Point2::origin(), |sum: Point2<f64>, p| sum + p.coords);
         Self {
             target,
-            nearest_wall: NearestCells::new(&target.occupied_mask(&thresholds)),
+            nearest_wall: NearestWall::new(target, &thresholds),
             true_target_from_source,
             centroid: sum / walls.len().max(1) as f64,
             walls,
@@ -64,17 +62,8 @@ impl<'a> Overlap<'a> {
     /// Squared distance to the target wall nearest to the cell of `point`; outside the grid, to
     /// the wall nearest to the closest border cell, which bounds it from above.
     fn distance_sq_to_wall(&self, point: Point2<f64>) -> f64 {
-        let [column, row] = self.target.frame().lattice_cell(point);
-        let clamp =
-            |at: i64, size: usize| usize::try_from(at.max(0)).unwrap_or(usize::MAX).min(size - 1);
-        let index = CellIndex {
-            column: clamp(column, self.target.width()),
-            row: clamp(row, self.target.height()),
-        };
-        self.nearest_wall
-            .as_ref()
-            .and_then(|nearest| nearest.nearest(index))
-            .map_or(f64::NAN, |wall| (self.target.frame().cell_centre(wall) - point).norm_squared())
+        let nearest = self.nearest_wall.as_ref();
+        nearest.map_or(f64::NAN, |walls| (walls.nearest_to(point) - point).norm_squared())
     }
 }
 

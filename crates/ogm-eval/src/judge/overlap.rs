@@ -9,17 +9,16 @@ use super::error::{PIXEL, PoseError, TransformError};
 ///
 /// The set does not depend on an estimate, so all methods are judged on the same cells.
 #[derive(Debug)]
-pub(crate) struct Overlap<'a> {
-    target: &'a OccupancyGrid,
+pub(crate) struct Overlap {
     nearest_wall: Option<NearestWall>,
     true_target_from_source: Se2,
     walls: Vec<Point2<f64>>,
     centroid: Point2<f64>,
 }
 
-impl<'a> Overlap<'a> {
+impl Overlap {
     pub(crate) fn new(
-        target: &'a OccupancyGrid,
+        target: &OccupancyGrid,
         source: &OccupancyGrid,
         true_target_from_source: Se2,
     ) -> Self {
@@ -38,7 +37,6 @@ impl<'a> Overlap<'a> {
             .collect();
         let sum = walls.iter().fold(Point2::origin(), |sum: Point2<f64>, p| sum + p.coords);
         Self {
-            target,
             nearest_wall: NearestWall::new(target, &thresholds),
             true_target_from_source,
             centroid: sum / walls.len().max(1) as f64,

@@ -46,7 +46,7 @@ impl Truth {
     }
 
     /// The error of a pose and of the walls under it.
-    pub(crate) fn errors(&self, overlap: &Overlap<'_>, target_from_source: &Se2) -> TransformError {
+    pub(crate) fn errors(&self, overlap: &Overlap, target_from_source: &Se2) -> TransformError {
         let pose = self.error(target_from_source);
         TransformError { pose, ..overlap.errors(target_from_source) }
     }

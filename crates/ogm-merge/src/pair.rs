@@ -1,6 +1,6 @@
 //! The front door: two maps and a method in, one report out.
 
-use grid_match::{MatchParams, Prior, match_maps};
+use grid_match::{Evidence, MatchParams, Prior, match_maps};
 use ogm_core::{Outcome, Progress, Refusal, Se2, Stage};
 use radon_merge::{Candidate, RadonParams};
 use rfid_loc::{common_tags, select_tags};
@@ -129,7 +129,8 @@ impl Pair<'_> {
         };
         let warnings = found.evidence.warnings();
         let stages = Stages { tags: Some(found.evidence), ..Stages::default() };
-        let report = self.scored(Method::Tags(method), found.outcome, best, stages, progress)?;
+        let (report, _) =
+            self.scored(Method::Tags(method), found.outcome, best, stages, progress)?;
         Ok(PairReport { warnings, ..report })
     }
 
@@ -147,11 +148,17 @@ impl Pair<'_> {
         );
         let best = outcome.clone().found();
         let stages = Stages { walks, ..Stages::default() };
-        let mut report = self.scored(Method::Carpin, outcome, best, stages, progress)?;
-        let log_odds = report.hypotheses.first().map(|best| best.score);
-        if let Some(log_odds) = log_odds.filter(|&log_odds| log_odds <= 0.0) {
-            let probability = 1.0 / (1.0 + (-log_odds).exp());
-            report.outcome = Outcome::Refused(Refusal::Unlikely { probability, need: 0.5 });
+        let (mut report, evidence) =
+            self.scored(Method::Carpin, outcome, best, stages, progress)?;
+        if let Some(evidence) = evidence.filter(|evidence| evidence.score() <= 0.0) {
+            let conflict_m = evidence.near_miss_m + evidence.conflict_m;
+            let compared_m = conflict_m + evidence.hit_m;
+            let need_m = self.params.matching.min_wall_m;
+            report.outcome = Outcome::Refused(if evidence.is_comparable() {
+                Refusal::ConflictingWalls { conflict_m, compared_m }
+            } else {
+                Refusal::NoOverlap { have_m: evidence.same_side_m, need_m }
+            });
         }
         Ok(report)
     }
@@ -169,11 +176,11 @@ impl Pair<'_> {
         };
         let outcome = found.outcome.clone();
         let stages = Stages { radon: Some(found), ..Stages::default() };
-        self.scored(Method::Radon, outcome, best, stages, progress)
+        Ok(self.scored(Method::Radon, outcome, best, stages, progress)?.0)
     }
 
     /// The report of a method that knows one transform at most, accepted or not, and no
-    /// probability.
+    /// probability; and what the maps say about that transform.
     fn scored(
         &self,
         method: Method,
@@ -181,24 +188,26 @@ impl Pair<'_> {
         target_from_source: Option<Se2>,
         stages: Stages,
         progress: &dyn Progress,
-    ) -> Result<PairReport, MergeError> {
+    ) -> Result<(PairReport, Option<Evidence>), MergeError> {
         let thresholds = &self.params.matching.thresholds;
         let maps = [self.target.map, self.source.map];
         let scoring = Stage::new(progress, SEARCH, 1.0);
         let scored = target_from_source
             .map(|pose| Hypothesis::scored(maps, pose, thresholds, &scoring))
             .transpose()?;
-        Ok(PairReport {
+        let (hypothesis, evidence) = scored.unzip();
+        let report = PairReport {
             method,
             seed: self.params.seed,
             outcome,
             target_from_source,
-            overlap: scored.as_ref().map(|(_, evidence)| evidence.overlap),
-            agreement: scored.as_ref().map(|(_, evidence)| evidence.agreement()),
-            hypotheses: scored.into_iter().map(|(hypothesis, _)| hypothesis).collect(),
+            overlap: evidence.map(|evidence| evidence.overlap),
+            agreement: evidence.map(|evidence| evidence.agreement()),
+            hypotheses: hypothesis.into_iter().collect(),
             warnings: Vec::new(),
             stages,
-        })
+        };
+        Ok((report, evidence))
     }
 
     fn are_copies(&self) -> bool {

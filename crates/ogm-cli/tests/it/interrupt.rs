@@ -4,16 +4,30 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::Duration;
 
+use ogm_core::{Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
+use ogm_io::{WriteOptions, write_map};
 use tempfile::tempdir;
 
-use crate::fixtures;
+/// Rooms of 4 m on 75 × 75 m: a walk over so many cells takes many seconds.
+fn large_map() -> OccupancyGrid {
+    let side = 1500;
+    let is_wall = |at: usize| {
+        let (column, row) = (at % side, at / side);
+        (column % 80 == 0 && row % 110 > 18) || (row % 80 == 0 && column % 130 > 18)
+    };
+    let cell = |at| if is_wall(at) { Occupancy::OCCUPIED } else { Occupancy::FREE };
+    let frame = GridFrame::new(0.05, Se2::identity()).unwrap();
+    OccupancyGrid::new(frame, Grid::new(side, side, (0..side * side).map(cell).collect()).unwrap())
+}
 
-/// In a debug build this walk takes many seconds.
 #[test]
 fn a_search_ends_soon_after_ctrl_c_and_leaves_no_file() {
-    let folder = tempdir().unwrap();
-    let output = folder.path().join("merged.yaml");
-    let [target, source] = ["target.yaml", "source.yaml"].map(|name| fixtures().join(name));
+    let [inputs, outputs] = [tempdir().unwrap(), tempdir().unwrap()];
+    let output = outputs.path().join("merged.yaml");
+    let [target, source] = ["a.yaml", "b.yaml"].map(|name| inputs.path().join(name));
+    for map in [&target, &source] {
+        write_map(map, &large_map(), &WriteOptions::default()).unwrap();
+    }
     let mut child = Command::new(env!("CARGO_BIN_EXE_ogm"))
         .args(["merge", "--method", "carpin", "-o"])
         .args([&output, &target, &source])
@@ -30,5 +44,5 @@ fn a_search_ends_soon_after_ctrl_c_and_leaves_no_file() {
     assert_eq!(String::from_utf8_lossy(&ended.stdout), "");
     let complained = String::from_utf8_lossy(&ended.stderr);
     assert!(complained.contains("Ctrl-C"), "{complained}");
-    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    assert_eq!(std::fs::read_dir(outputs.path()).unwrap().count(), 0);
 }

@@ -9,10 +9,10 @@ use ogm_io::{WriteOptions, write_map};
 use tempfile::tempdir;
 
 /// Rooms of 4 m on 75 × 75 m: a walk over so many cells takes many seconds.
-fn large_map() -> OccupancyGrid {
+fn large_map(offset: usize) -> OccupancyGrid {
     let side = 1500;
     let is_wall = |at: usize| {
-        let (column, row) = (at % side, at / side);
+        let (column, row) = (at % side + offset, at / side + offset);
         (column % 80 == 0 && row % 110 > 18) || (row % 80 == 0 && column % 130 > 18)
     };
     let cell = |at| if is_wall(at) { Occupancy::OCCUPIED } else { Occupancy::FREE };
@@ -25,8 +25,8 @@ fn a_search_ends_soon_after_ctrl_c_and_leaves_no_file() {
     let [inputs, outputs] = [tempdir().unwrap(), tempdir().unwrap()];
     let output = outputs.path().join("merged.yaml");
     let [target, source] = ["a.yaml", "b.yaml"].map(|name| inputs.path().join(name));
-    for map in [&target, &source] {
-        write_map(map, &large_map(), &WriteOptions::default()).unwrap();
+    for (map, offset) in [(&target, 0), (&source, 37)] {
+        write_map(map, &large_map(offset), &WriteOptions::default()).unwrap();
     }
     let mut child = Command::new(env!("CARGO_BIN_EXE_ogm"))
         .args(["merge", "--method", "carpin", "-o"])

@@ -4,6 +4,7 @@ use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 use crate::params::{DriftParams, LidarParams, MappingParams, PairParams};
+use crate::style::MapStyle;
 
 /// Metres between the points of a path.
 const STEP: f64 = 0.1;
@@ -15,6 +16,8 @@ pub(crate) struct Conditions {
     pub(crate) source: PairParams,
     /// Share of the furniture that stands elsewhere when the second robot comes.
     pub(crate) moved_share: f64,
+    /// Who makes the maps.
+    pub(crate) styles: [MapStyle; 2],
 }
 
 impl Conditions {
@@ -34,7 +37,13 @@ impl Conditions {
             drift,
             ..PairParams::default()
         };
-        Self { target: params(lidar, resolution), source: params(other, finer), moved_share }
+        let styles = [style(rng), style(rng)];
+        Self {
+            target: params(lidar, resolution),
+            source: params(other, finer),
+            moved_share,
+            styles,
+        }
     }
 }
 
@@ -56,7 +65,13 @@ fn resolution(rng: &mut ChaCha8Rng) -> f64 {
     [0.05, 0.05, 0.05, 0.03, 0.04, 0.075, 0.1][rng.random_range(0..7)]
 }
 
-/// None for two of five pairs.
+/// The simulator's own for half of the maps.
+fn style(rng: &mut ChaCha8Rng) -> MapStyle {
+    let others = &MapStyle::ALL[1..];
+    if rng.random_bool(0.5) { MapStyle::Plain } else { others[rng.random_range(0..others.len())] }
+}
+
+/// None for two of five pairs, and much for one of ten.
 fn drift(rng: &mut ChaCha8Rng) -> DriftParams {
     if rng.random_bool(0.4) {
         return DriftParams::default();
@@ -64,6 +79,10 @@ fn drift(rng: &mut ChaCha8Rng) -> DriftParams {
     DriftParams {
         odometry_share: rng.random_range(0.0..0.006),
         compass_sigma: rng.random_range(0.0..0.01),
-        bend: rng.random_range(0.02..0.25),
+        bend: if rng.random_bool(0.15) {
+            rng.random_range(0.25..0.45)
+        } else {
+            rng.random_range(0.02..0.25)
+        },
     }
 }

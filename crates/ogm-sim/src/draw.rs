@@ -19,6 +19,7 @@ pub(crate) enum Stream {
     Bend,
     Pair,
     Route,
+    Style,
 }
 
 /// The generator of `stream` for the work item `item`.

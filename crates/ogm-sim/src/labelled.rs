@@ -11,11 +11,16 @@ use crate::draw::{Stream, generator};
 use crate::explore::{Part, explore, free_space};
 use crate::navigate::FreeSpace;
 use crate::run::{bend, frame_at_start, random_heading};
+use crate::style::MapStyle;
 use crate::truth::{PairTruth, pair_truth};
 use crate::{FloorKind, FloorPlan, PairParams, RobotRun, SOURCE, SimError, TARGET, map_along_path};
 
 /// Overlap of pairs that do.
-const OVERLAP: [f64; 2] = [0.15, 0.9];
+const OVERLAP: [f64; 2] = [0.15, 1.0];
+/// Share of them that show the same floor, as two mappers of one run do, or a visit and a later one.
+const WHOLE_SHARE: f64 = 0.3;
+/// Overlap of these, as planned.
+const WHOLE: [f64; 2] = [0.85, 1.0];
 /// How close a drawn overlap is met.
 const NEAR: f64 = 0.06;
 /// Overlap up to which maps have nothing in common: a glance through a door.
@@ -28,7 +33,7 @@ const ATTEMPTS: usize = 6;
 /// How two maps belong together.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum Relation {
-    /// Parts of one floor that overlap by 15 to 90 %.
+    /// Parts of one floor that overlap by at least 15 %.
     Overlapping,
     /// Parts of one floor that have nothing in common.
     Apart,
@@ -48,6 +53,8 @@ pub struct LabelledPair {
     pub truth: Option<PairTruth>,
     /// Whether both robots knew their poses and nothing moved, so that the truth is exact.
     pub exact: bool,
+    /// Who made each map.
+    pub styles: [MapStyle; 2],
 }
 
 /// Draws a pair of maps: floor, parts explored, sensors, resolutions, drift and moved furniture
@@ -64,7 +71,7 @@ pub fn labelled_pair(
     let mut rng = generator(seed, Stream::Pair, item);
     let conditions = Conditions::draw(&mut rng);
     let plan = kind.draw(rng.random());
-    match relation {
+    let pair = match relation {
         Relation::Overlapping => overlapping(&plan, &conditions, &mut rng),
         Relation::Apart => apart(&plan, &conditions, &mut rng),
         Relation::Unrelated => {
@@ -72,7 +79,15 @@ pub fn labelled_pair(
             let other = if rng.random_bool(0.5) { kind } else { other };
             unrelated([&plan, &other.draw(rng.random())], &conditions, &mut rng)
         }
-    }
+    }?;
+    Ok(restyled(pair, conditions.styles, seed))
+}
+
+/// The maps as their mappers saved them.
+fn restyled(pair: LabelledPair, styles: [MapStyle; 2], seed: u64) -> LabelledPair {
+    let target = styles[0].apply(&pair.target, seed);
+    let source = styles[1].apply(&pair.source, seed.wrapping_add(1));
+    LabelledPair { target, source, styles, ..pair }
 }
 
 /// Two robots on one floor, before it is decided how far each goes.
@@ -131,9 +146,12 @@ fn overlapping(
     let later = plan.with_furniture_moved(conditions.moved_share, rng);
     let spaces = [&free_space(plan)?, &free_space(&later)?];
     let mut params = [conditions.target, conditions.source];
+    let is_whole = rng.random_bool(WHOLE_SHARE);
+    let range = if is_whole { WHOLE } else { [OVERLAP[0], WHOLE[0]] };
     let (normal, ratio) = (direction(rng), rng.random_range(0.5..1.0));
-    let wanted = rng.random_range(OVERLAP[0]..OVERLAP[1]);
-    let mut planned = wanted - 0.15;
+    let ratio = if is_whole { 1.0 } else { ratio };
+    let wanted = rng.random_range(range[0]..range[1]);
+    let mut planned = wanted - if is_whole { 0.0 } else { 0.15 };
     let mut best: Option<(f64, LabelledPair)> = None;
     for _ in 0..ATTEMPTS {
         let visit = Visit { plans: [plan, &later], spaces, params, normal, ratio };
@@ -211,7 +229,8 @@ fn labelled(
 ) -> LabelledPair {
     let drifts = conditions.target.drift != crate::DriftParams::default();
     let exact = !drifts && conditions.moved_share == 0.0;
-    LabelledPair { target: target.map, source: source.map, truth, exact }
+    let styles = [MapStyle::Plain; 2];
+    LabelledPair { target: target.map, source: source.map, truth, exact, styles }
 }
 
 fn direction(rng: &mut ChaCha8Rng) -> Vector2<f64> {

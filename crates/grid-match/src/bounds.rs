@@ -2,12 +2,16 @@
 
 use ogm_core::{Se2, wrap_angle};
 
+use crate::mode::{MODE_M, MODE_RAD};
 use crate::params::Prior;
 use crate::prepare::PreparedMap;
 use crate::rotation::SWEEP_STEP;
 
 /// Standard deviations to which a prior is believed.
 const SIGMAS: f64 = 3.0;
+
+/// Most log-odds that a prior adds: twenty to one.
+const MOST_CREDIT: f64 = 3.0;
 
 /// Poses that a prior allows, in the local frames of the search.
 #[derive(Debug, Clone, Copy)]
@@ -42,6 +46,17 @@ impl Bounds {
             reach_m: SIGMAS * prior.sigma_m,
             reach_rad: SIGMAS * prior.sigma_rad,
         }
+    }
+
+    /// Log-odds that a prior adds: it rules out places where the maps could fit by chance. Bounded,
+    /// for a prior may be wrong.
+    pub(crate) fn credit(&self, first: &PreparedMap, second: &PreparedMap) -> f64 {
+        let places = (first.known_area() + second.known_area()) / MODE_M.powi(2);
+        let turns = std::f64::consts::TAU / MODE_RAD;
+        let allowed_places = std::f64::consts::PI * (self.reach_m / MODE_M).powi(2);
+        let allowed_turns = 2.0 * self.reach_rad / MODE_RAD;
+        let allowed = allowed_places.clamp(1.0, places.max(1.0)) * allowed_turns.clamp(1.0, turns);
+        (places.max(1.0) * turns / allowed).ln().clamp(0.0, MOST_CREDIT)
     }
 
     /// Whether a pose lies within the bounds.

@@ -2,22 +2,17 @@
 
 use nalgebra::Point2;
 
-use crate::log_odds::NOT_COMPARABLE;
+use crate::mode::{MODE_M, MODE_RAD};
 use crate::search::Fit;
+use crate::terms::Weights;
 use crate::translation::same_place;
 
-/// Poses further apart than this at the centre of the second map are different answers, metres.
-const MODE_M: f64 = 0.75;
-/// Poses turned further apart than this are different answers, radians.
-const MODE_RAD: f64 = 0.1;
 /// Score of no pose at all.
 pub(crate) const FLOOR: f64 = 0.0;
 /// A larger lead over the second mode says no more.
-const MOST_LEAD: f64 = 6.0;
-/// Taken off the log-odds of a pose that has support, for a wrong merge costs more than a refusal.
-const CAUTION: f64 = 0.3;
-/// A larger score says no more.
-const MOST_SCORE: f64 = 8.0;
+const MOST_LEAD: f64 = 8.0;
+/// What is taken for the second mode where there is none, and at least.
+const NO_SECOND: f64 = -9.0;
 
 /// The best fit of every mode, best first.
 pub(crate) fn modes(mut fits: Vec<Fit>, centre: Point2<f64>) -> Vec<Fit> {
@@ -37,35 +32,72 @@ pub(crate) fn modes(mut fits: Vec<Fit>, centre: Point2<f64>) -> Vec<Fit> {
     modes
 }
 
-/// Probability that the first of `modes` is right.
-///
-/// A logistic regression on simulated pairs, a little lowered: the lead over the second mode, the
-/// score itself, and against it the score of the second mode, for where one wrong pose fits well
-/// the building repeats itself, and the right pose may be one more that the maps do not show.
-pub(crate) fn best_probability(modes: &[Fit]) -> f64 {
-    let score = |index: usize| modes.get(index).map_or(NOT_COMPARABLE, |mode| mode.score);
-    let (best, second) = (score(0), score(1));
-    let lead = (best - second).min(MOST_LEAD);
-    let (doubt, support) = (best.min(FLOOR), best.clamp(FLOOR, MOST_SCORE));
-    let rival = second.max(FLOOR).ln_1p();
-    let caution = CAUTION * support.min(1.0);
-    let log_odds =
-        -1.459 + 0.601 * lead + 0.902 * doubt + 0.395 * support - 1.409 * rival - caution;
-    1.0 / (1.0 + (-log_odds).exp())
+/// What is known about a pair before its maps are looked at.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Beliefs {
+    /// Log-odds that a prior pose adds.
+    pub(crate) prior: f64,
+    /// Whether the building is known to repeat itself.
+    pub(crate) repeats: bool,
 }
 
-/// Probability that the mode at `index` is the right one of all modes and of no pose at all; what
-/// the first leaves is shared by the others as their scores say.
-pub(crate) fn probability(modes: &[Fit], index: usize) -> f64 {
-    let best = best_probability(modes);
-    if index == 0 {
-        return best;
+/// Probability of each of `scores`, best first, that it is that of the right pose.
+///
+/// One of them is right or none: the more likely the better the best fits, and the further it
+/// leads over the second, which shows what the wrong poses of this pair reach; the less likely the
+/// better a second fits, for where one wrong pose fits well the right one may be one more that was
+/// not found. What they have in common they share as their scores say.
+pub(crate) fn probabilities(scores: &[f64], beliefs: Beliefs, weights: &Weights) -> Vec<f64> {
+    let Some(&best) = scores.first() else { return Vec::new() };
+    let second = scores.get(1).copied().unwrap_or(NO_SECOND).max(NO_SECOND);
+    let lead = (best - second).clamp(0.0, MOST_LEAD);
+    let doubt = if beliefs.repeats { weights.repeats } else { 0.0 };
+    let log_odds = weights.any + weights.score * best + weights.lead * lead
+        - weights.rival * second.max(FLOOR)
+        + beliefs.prior
+        - doubt;
+    let any = 1.0 / (1.0 + (-log_odds).exp());
+    let shares: Vec<f64> = scores.iter().map(|score| (score - best).exp()).collect();
+    let total: f64 = shares.iter().sum();
+    shares.iter().map(|share| any * share / total).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Beliefs, probabilities};
+    use crate::weights::WEIGHTS;
+    use proptest::prelude::{prop_assert, proptest};
+
+    proptest! {
+        #[test]
+        fn they_are_probabilities_that_add_up_and_follow_the_scores(
+            mut scores in proptest::collection::vec(-12.0_f64..25.0, 1..6),
+        ) {
+            scores.sort_by(|a, b| b.total_cmp(a));
+            let found = probabilities(&scores, Beliefs::default(), &WEIGHTS);
+            prop_assert!(found.iter().all(|p| (0.0..=1.0).contains(p)));
+            prop_assert!(found.iter().sum::<f64>() <= 1.0 + 1e-12);
+            prop_assert!(found.is_sorted_by(|a, b| a >= b));
+        }
+
+        #[test]
+        fn a_prior_raises_them_and_a_building_that_repeats_lowers_them(
+            best in -5.0_f64..15.0, second in -12.0_f64..5.0,
+        ) {
+            let scores = [best.max(second), second];
+            let of = |beliefs| probabilities(&scores, beliefs, &WEIGHTS)[0];
+            let plain = of(Beliefs::default());
+            let helped = of(Beliefs { prior: 2.0, repeats: false });
+            let doubted = of(Beliefs { prior: 0.0, repeats: true });
+            prop_assert!(helped > plain && doubted <= plain);
+        }
     }
-    let others = &modes[1..];
-    let highest = others.iter().map(|mode| mode.score).fold(FLOOR, f64::max);
-    let weight = |score: f64| (score - highest).exp();
-    let total: f64 = others.iter().map(|mode| weight(mode.score)).sum();
-    let share = (1.0 - best) * weight(modes[index].score) / (total + weight(FLOOR));
-    // Where several fit alike, what all of them lack is left to poses that were not found.
-    share.min(best)
+
+    #[test]
+    fn equal_poses_share_what_there_is() {
+        let found = probabilities(&[9.0, 9.0], Beliefs::default(), &WEIGHTS);
+        assert_eq!(found[0], found[1]);
+        let alone = probabilities(&[9.0], Beliefs::default(), &WEIGHTS)[0];
+        assert!(alone > 0.95, "{alone}");
+    }
 }

@@ -3,10 +3,10 @@
 use nalgebra::{Matrix2, Point2, Rotation2, SymmetricEigen, Vector2};
 use rustfft::num_complex::Complex32;
 
-use crate::crop::State;
 use crate::lattice::floor_index;
 use crate::prepare::PreparedMap;
 use crate::smooth::smooth_rows_and_columns;
+use crate::state::State;
 
 /// What wall on wall, wall on free space and free space on free space count.
 #[derive(Debug, Clone, Copy)]
@@ -20,7 +20,7 @@ pub(crate) struct Weights {
 }
 
 /// Fitted on simulated pairs.
-pub(crate) const WEIGHTS: Weights = Weights { walls: 1.0, conflict: 0.6, free: 0.03 };
+pub(crate) const WEIGHTS: Weights = Weights { walls: 1.0, conflict: 0.25, free: 0.03 };
 
 /// A map turned by some angle, as one complex number a coarse cell.
 #[derive(Debug, Clone)]

@@ -3,10 +3,10 @@
 use nalgebra::Rotation2;
 use ogm_core::Se2;
 
-use crate::crop::State;
 use crate::evidence::{Evidence, Relaxed};
-use crate::patches::relaxed_counts;
+use crate::patches::relax;
 use crate::prepare::PreparedMap;
+use crate::state::State;
 use crate::wall_counts::{Reach, WallCounts};
 
 /// The evidence on at most `most` wall points of each map.
@@ -20,19 +20,21 @@ pub(crate) fn evaluate(
     let mut evidence = evaluate_rigid(first, second, first_from_second, reach, most);
     if evidence.is_comparable() {
         let second_from_first = first_from_second.inverse();
-        let (forth, one) = relaxed_counts(second, first, first_from_second, reach, most);
-        let (back, other) = relaxed_counts(first, second, &second_from_first, reach, most);
+        let forth = relax(second, first, first_from_second, reach, most);
+        let back = relax(first, second, &second_from_first, reach, most);
+        let mean =
+            |value: fn(&WallCounts) -> f64| 0.5 * (value(&forth.counts) + value(&back.counts));
         evidence.relaxed = Relaxed {
-            hit_m: 0.5 * (forth.hit + back.hit),
-            near_miss_m: 0.5 * (forth.near_miss + back.near_miss),
-            conflict_m: 0.5 * (forth.conflict + back.conflict),
-            moved_m: 0.5 * (one + other),
+            hit_m: mean(|counts| counts.hit),
+            near_miss_m: mean(|counts| counts.near_miss),
+            conflict_m: mean(|counts| counts.conflict),
+            moved_m: 0.5 * (forth.moved_m + back.moved_m),
         };
     }
     evidence
 }
 
-/// The evidence of each map as one piece, without what it would be if it gave way.
+/// The evidence of each map as one piece that does not give way.
 pub(crate) fn evaluate_rigid(
     first: &PreparedMap,
     second: &PreparedMap,
@@ -55,16 +57,21 @@ pub(crate) fn evaluate_rigid(
     let turn = Rotation2::new(first_from_second.theta()).into_inner();
     let spread = (forth.spread + turn * back.spread * turn.transpose()) * 0.5;
     let mean = |value: fn(&WallCounts) -> f64| 0.5 * (value(&forth) + value(&back));
+    let [hit_m, near_miss_m, conflict_m] = [
+        mean(|counts| counts.hit),
+        mean(|counts| counts.near_miss),
+        mean(|counts| counts.conflict),
+    ];
     Evidence {
-        hit_m: mean(|counts| counts.hit),
-        near_miss_m: mean(|counts| counts.near_miss),
-        conflict_m: mean(|counts| counts.conflict),
+        hit_m,
+        near_miss_m,
+        conflict_m,
         free_m2: f64::from(free) * second.sample_area,
         overlap: (f64::from(known) * second.sample_area / smaller).min(1.0),
         same_side_m: mean(|counts| counts.same_side),
         opposite_side_m: mean(|counts| counts.opposite_side),
         cross_m: spread.symmetric_eigenvalues().min().max(0.0),
         chance: f64::from(near) / f64::from(known.max(1)),
-        relaxed: Relaxed::default(),
+        relaxed: Relaxed { hit_m, near_miss_m, conflict_m, moved_m: 0.0 },
     }
 }

@@ -10,10 +10,6 @@ pub(crate) struct Lattice {
     pub(crate) resolution: f64,
 }
 
-/// Differences across two cells below this are no direction: a wall seen from one side alone gives
-/// about 0.5, one seen from both sides gives noise.
-const FLAT: f64 = 0.1;
-
 /// A value between cell centres and how it changes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Slope {
@@ -58,23 +54,6 @@ impl Lattice {
             value: low + up * (high - low),
             gradient: Vector2::new(along_x, high - low) * per_metre,
         })
-    }
-
-    /// Unit vector of the steepest ascent of `field` at a cell; zero where it is flat or at the
-    /// border.
-    #[inline]
-    pub(crate) fn direction(&self, field: &[f32], index: usize) -> Vector2<f64> {
-        let (column, row) = (index % self.width, index / self.width);
-        if column == 0 || row == 0 || column + 1 == self.width || row + 1 == self.height {
-            return Vector2::zeros();
-        }
-        let difference = |a: usize, b: usize| f64::from(field[b] - field[a]);
-        let ascent = Vector2::new(
-            difference(index - 1, index + 1),
-            difference(index - self.width, index + self.width),
-        );
-        let steepness = ascent.norm();
-        if steepness > FLAT { ascent / steepness } else { Vector2::zeros() }
     }
 }
 

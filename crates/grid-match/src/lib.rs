@@ -46,6 +46,7 @@
 //! is left is scored in metres of wall, for and against. [`PreparedMap`] keeps what is computed of
 //! one map alone. The order of the two maps, their origins and the number of threads do not matter.
 
+mod bend;
 mod bounds;
 mod confidence;
 mod correlate;
@@ -56,20 +57,26 @@ mod error;
 mod evaluate;
 mod evidence;
 mod lattice;
-mod log_odds;
 mod matching;
+mod mode;
 mod params;
 mod patches;
 mod prepare;
 mod refine;
 mod report;
 mod rotation;
+mod score;
 mod search;
+mod sides;
 mod smooth;
 mod spectrum;
+mod state;
+mod terms;
 mod translation;
+mod visible;
 mod wall_counts;
 mod wall_points;
+mod weights;
 mod work;
 
 pub use error::MatchError;
@@ -79,7 +86,8 @@ pub use matching::{match_maps, match_prepared, score_pose};
 pub use ogm_core;
 pub use params::{Effort, MatchParams, Prior};
 pub use prepare::PreparedMap;
-pub use report::{Hypothesis, MatchReport, WeakDirection};
+pub use report::{Bend, Hypothesis, MatchReport, PatchMotion, WeakDirection};
+pub use terms::{TERM_NAMES, TERMS, Weights};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -8,22 +8,25 @@ use ogm_core::{
 };
 
 use crate::MatchError;
+use crate::bend::bend;
 use crate::bounds::Bounds;
-use crate::confidence::{FLOOR, modes, probability};
+use crate::confidence::{Beliefs, FLOOR, modes, probabilities};
 use crate::covariance::covariance;
-use crate::evaluate::evaluate;
 use crate::evidence::Evidence;
 use crate::lattice::floor_index;
 use crate::params::{Effort, MatchParams};
 use crate::prepare::PreparedMap;
 use crate::refine::polish;
 use crate::report::{Hypothesis, MatchReport};
-use crate::search::{Fit, Search};
-use crate::wall_counts::Reach;
+use crate::score::NOT_COMPARABLE;
+use crate::search::{Fit, Search, evaluate_in_full};
+use crate::weights::WEIGHTS;
 use crate::work::Work;
 
 /// Most hypotheses of a report.
 const MOST_HYPOTHESES: usize = 5;
+/// A pose is a rival of the best if it is at least so likely beside it, whatever its score.
+const RIVAL_SHARE: f64 = 0.2;
 /// Share of the work after which all poses are found, but not polished.
 const SEARCHED: f64 = 0.9;
 
@@ -79,6 +82,14 @@ fn search(
     let swapped = order(target, source) == Ordering::Less;
     let (first, second) = if swapped { (source, target) } else { (target, source) };
     let bounds = params.prior.map(|prior| Bounds::new(&prior, first, second, swapped));
+    let beliefs = Beliefs {
+        prior: bounds.map_or(0.0, |bounds| bounds.credit(first, second)),
+        repeats: params.repeats,
+    };
+    let believed = |fits: &[Fit]| {
+        let scores: Vec<f64> = fits.iter().map(|fit| fit.score).collect();
+        probabilities(&scores, beliefs, &WEIGHTS)
+    };
     let mut search = Search::new(first, second, bounds, Work::new(params.work_limit));
     let mut found = Vec::new();
     let efforts = [Effort::Fast, Effort::Standard, Effort::Thorough];
@@ -93,7 +104,7 @@ fn search(
         }
         search.run(effort, &Stage::new(&searched, share(index), share(index + 1)))?;
         found = modes(search.fits.clone(), second.centre);
-        if !found.is_empty() && probability(&found, 0) >= params.accept {
+        if believed(&found).first().is_some_and(|&probability| probability >= params.accept) {
             break;
         }
     }
@@ -101,19 +112,34 @@ fn search(
     let polished = Stage::new(progress, SEARCHED, 1.0);
     let polished = Steps::new(&polished, found.len());
     for fit in &mut found {
-        fit.first_from_second = polish(first, second, fit.first_from_second);
+        let first_from_second = polish(first, second, fit.first_from_second);
+        // What is reported is what was polished, so it is what has to be weighed and bounded.
+        if bounds.is_none_or(|bounds| bounds.contains(&first_from_second)) {
+            *fit = evaluate_in_full(first, second, first_from_second);
+        }
         polished.step()?;
     }
-    let hypotheses: Vec<Hypothesis> = (0..found.len().min(MOST_HYPOTHESES))
-        .filter(|&index| found[index].evidence.is_comparable())
-        .map(|index| hypothesis(target, source, &found, index, swapped))
+    let mut found = modes(found, second.centre);
+    found.retain(|fit| fit.score > NOT_COMPARABLE);
+    let mut probabilities = believed(&found);
+    probabilities.truncate(MOST_HYPOTHESES);
+    let hypotheses: Vec<Hypothesis> = found
+        .iter()
+        .zip(probabilities)
+        .map(|(fit, probability)| hypothesis(target, source, fit, probability, swapped))
         .collect();
-    let outcome = outcome(&hypotheses, params);
     let (work, exhausted) = (search.work.spent(), search.work.exhausted());
+    let outcome = if exhausted {
+        Outcome::Refused(Refusal::SearchCut { work })
+    } else {
+        outcome(&hypotheses, params)
+    };
     Ok(MatchReport { hypotheses, outcome, work, exhausted })
 }
 
-/// What two maps say for and against one pose, without a search.
+/// What two maps say for and against one pose, without a search: what a report would say of it.
+///
+/// The same for the maps swapped and the pose inverted.
 ///
 /// # Errors
 /// A pose that is not finite.
@@ -125,8 +151,12 @@ pub fn score_pose(
     target_from_source.check_finite()?;
     let target_local_from_source_local =
         target.map_from_local.inverse() * *target_from_source * source.map_from_local;
-    let reach = Reach::at(target.resolution().max(source.resolution()));
-    Ok(evaluate(target, source, &target_local_from_source_local, reach, usize::MAX))
+    let fit = if order(target, source) == Ordering::Less {
+        evaluate_in_full(source, target, target_local_from_source_local.inverse())
+    } else {
+        evaluate_in_full(target, source, target_local_from_source_local)
+    };
+    Ok(fit.evidence)
 }
 
 fn too_little(map: &PreparedMap, params: &MatchParams) -> Option<Refusal> {
@@ -150,29 +180,31 @@ fn order(a: &PreparedMap, b: &PreparedMap) -> Ordering {
 fn hypothesis(
     target: &PreparedMap,
     source: &PreparedMap,
-    modes: &[Fit],
-    index: usize,
+    fit: &Fit,
+    probability: f64,
     swapped: bool,
 ) -> Hypothesis {
-    let Fit { first_from_second, evidence, score } = modes[index];
+    let Fit { first_from_second, evidence, score } = *fit;
     let target_local_from_source_local =
         if swapped { first_from_second.inverse() } else { first_from_second };
     let scale = target.resolution().max(source.resolution()).max(0.08);
+    let bend = bend(target, source, &target_local_from_source_local);
     let (covariance, weak_direction) =
-        covariance(target, source, &target_local_from_source_local, scale);
+        covariance(target, source, &target_local_from_source_local, scale, &bend);
     Hypothesis {
         pose: RelativePose {
             target_from_source: target.map_from_local
                 * target_local_from_source_local
                 * source.map_from_local.inverse(),
             covariance,
-            probability: probability(modes, index),
+            probability,
         },
         score,
         weak_direction,
         overlap: evidence.overlap,
         agreement: evidence.agreement(),
         evidence,
+        bend,
     }
 }
 
@@ -184,7 +216,10 @@ fn outcome(hypotheses: &[Hypothesis], params: &MatchParams) -> Outcome<Se2> {
     if best.pose.probability >= params.accept {
         return Outcome::Found(best.pose.target_from_source);
     }
-    let poses = hypotheses.iter().filter(|other| other.score > FLOOR).count();
+    let is_rival = |other: &&Hypothesis| {
+        other.score > FLOOR || other.pose.probability >= RIVAL_SHARE * best.pose.probability
+    };
+    let poses = hypotheses.iter().filter(is_rival).count();
     let evidence = &best.evidence;
     let against = evidence.near_miss_m + evidence.conflict_m;
     let (probability, need) = (best.pose.probability, params.accept);

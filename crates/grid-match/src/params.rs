@@ -10,6 +10,9 @@ pub struct MatchParams {
     pub accept: f64,
     /// A pose that is already believed; `None` searches everywhere.
     pub prior: Option<Prior>,
+    /// Whether the building is known to repeat itself: equal rooms, or halves that mirror each
+    /// other. Then a good fit alone is no proof, and only what is beyond doubt is believed.
+    pub repeats: bool,
     /// What counts as occupied and free.
     pub thresholds: ClassThresholds,
     /// Least metres of wall in each map; 3 m, less than the walls of the smallest room.
@@ -26,6 +29,7 @@ impl Default for MatchParams {
         Self {
             accept: 0.90,
             prior: None,
+            repeats: false,
             thresholds: ClassThresholds::default(),
             min_wall_m: 3.0,
             effort: Effort::Standard,

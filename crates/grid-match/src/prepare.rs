@@ -3,11 +3,12 @@
 use nalgebra::{Point2, Vector2};
 use ogm_core::{Cancelled, ClassThresholds, Grid, OccupancyGrid, Progress, Se2, l2_distance_sq};
 
-use crate::crop::{Crop, State};
+use crate::crop::Crop;
 use crate::lattice::Lattice;
-use crate::smooth::smooth_rows_and_columns;
+use crate::sides::{Side, sides};
 use crate::spectrum::{Spectrum, hough_spectrum};
-use crate::wall_points::{WallPoint, wall_points};
+use crate::state::State;
+use crate::wall_points::{WallPoint, Walls};
 
 /// Distances are cut off here, metres: twice what the widest refinement still weighs.
 const FARTHEST_M: f64 = 2.0;
@@ -26,8 +27,8 @@ pub struct PreparedMap {
     pub(crate) state: Vec<State>,
     /// Metres to the nearest occupied cell, cut off.
     pub(crate) distance: Vec<f32>,
-    /// Share of free cells around, smoothed; its gradient points away from walls.
-    pub(crate) openness: Vec<f32>,
+    /// From which side the nearest wall was seen, near walls.
+    pub(crate) sides: Vec<Side>,
     /// In an order without pattern, so that any prefix is a fair sample.
     pub(crate) walls: Vec<WallPoint>,
     /// Metres of wall that a point stands for.
@@ -49,7 +50,8 @@ pub(crate) struct AreaSample {
 }
 
 impl PreparedMap {
-    /// Prepares `map`. Maps of more than 2²⁴ known cells are halved until they are smaller.
+    /// Prepares `map`. Maps of more than 2²⁴ known cells are searched on larger cells; where in each
+    /// its wall lies is kept.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -61,15 +63,15 @@ impl PreparedMap {
         progress.go_on(0.0)?;
         let crop = Crop::of(map, thresholds);
         progress.go_on(0.25)?;
-        let Crop { mut state, lattice, map_from_local } = crop;
-        drop_lone_occupied(&mut state, &lattice);
-        let occupied_cells = count(&state, State::Occupied);
+        let Crop { state, lattice, map_from_local, offsets } = crop;
+        let occupied_cells = count(&state, State::Wall);
         let distance = wall_distance(&state, &lattice);
         progress.go_on(0.6)?;
-        let openness = openness(&state, &lattice);
+        let sides = sides(&state, &lattice);
         progress.go_on(0.85)?;
         let spacing = SPACING_M.max(1.01 * lattice.resolution);
-        let walls = wall_points(&state, &openness, &lattice, spacing);
+        let walls = Walls { state: &state, sides: &sides, lattice: &lattice, offsets: &offsets };
+        let walls = walls.points(spacing);
         let (samples, sample_area) = area_samples(&state, &lattice);
         let centre = centroid(&samples);
         let bin = SPACING_M.max(1.5 * lattice.resolution);
@@ -80,7 +82,7 @@ impl PreparedMap {
             lattice,
             state,
             distance,
-            openness,
+            sides,
             walls,
             spacing,
             samples,
@@ -91,7 +93,7 @@ impl PreparedMap {
         })
     }
 
-    /// Metres a cell, after any halving.
+    /// Metres a cell that the search works on.
     #[must_use]
     pub fn resolution(&self) -> f64 {
         self.lattice.resolution
@@ -110,29 +112,13 @@ impl PreparedMap {
     }
 }
 
-/// An occupied cell without an occupied neighbour is noise: nothing is said about it.
-fn drop_lone_occupied(state: &mut [State], lattice: &Lattice) {
-    let width = lattice.width;
-    let lone: Vec<usize> = (width + 1..state.len().saturating_sub(width + 1))
-        .filter(|&at| state[at] == State::Occupied)
-        .filter(|&at| {
-            let around = |from: usize| state[from - 1..=from + 1].iter();
-            let neighbours = around(at - width).chain(around(at)).chain(around(at + width));
-            neighbours.filter(|&&cell| cell == State::Occupied).count() == 1
-        })
-        .collect();
-    for at in lone {
-        state[at] = State::Unknown;
-    }
-}
-
 fn count(state: &[State], wanted: State) -> usize {
     state.iter().filter(|&&cell| cell == wanted).count()
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "a distance in metres of single precision")]
 fn wall_distance(state: &[State], lattice: &Lattice) -> Vec<f32> {
-    let occupied = state.iter().map(|&cell| cell == State::Occupied).collect();
+    let occupied = state.iter().map(|&cell| cell == State::Wall).collect();
     let squared = Grid::new(lattice.width, lattice.height, occupied)
         .ok()
         .and_then(|mask| l2_distance_sq(&mask));
@@ -144,12 +130,6 @@ fn wall_distance(state: &[State], lattice: &Lattice) -> Vec<f32> {
         }
         None => vec![FARTHEST_M as f32; state.len()],
     }
-}
-
-fn openness(state: &[State], lattice: &Lattice) -> Vec<f32> {
-    let free = state.iter().map(|&cell| if cell == State::Free { 1.0 } else { 0.0 }).collect();
-    let sigma = (0.08 / lattice.resolution).max(1.2);
-    smooth_rows_and_columns(free, lattice.width, sigma)
 }
 
 /// Known cells on a square lattice, and the area that each stands for.

@@ -1,11 +1,14 @@
 //! Refinement of a pose on the distance fields of both maps.
 
+use std::collections::BTreeMap;
+
 use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 use ogm_core::Se2;
 
-use crate::crop::State;
-use crate::lattice::Slope;
+use crate::lattice::{Slope, floor_index};
 use crate::prepare::PreparedMap;
+use crate::sides::Facing;
+use crate::state::State;
 use crate::wall_points::WallPoint;
 
 /// Beyond so many scales a wall weighs less than a thousandth.
@@ -26,7 +29,8 @@ pub(crate) const POLISH_POINTS: usize = 20_000;
 pub(crate) struct Normal {
     /// Σ w J Jᵀ over (x, y, θ), turned about [`centre`](Self::centre).
     pub(crate) information: Matrix3<f64>,
-    gradient: Vector3<f64>,
+    /// Σ w r J.
+    pub(crate) gradient: Vector3<f64>,
     /// Σ w r², square metres.
     pub(crate) residual: f64,
     /// Σ w.
@@ -65,13 +69,7 @@ impl Sides {
     /// How far wall of another map, at `at` with `normal`, is from the walls of `map`, unless
     /// that is too far to matter at `scale`.
     #[inline]
-    fn pull(
-        self,
-        map: &PreparedMap,
-        at: Point2<f64>,
-        normal: Vector2<f64>,
-        scale: f64,
-    ) -> Option<Slope> {
+    fn pull(self, map: &PreparedMap, at: Point2<f64>, facing: Facing, scale: f64) -> Option<Slope> {
         let slope = map.lattice.slope(&map.distance, at)?;
         if slope.value > FAR_SCALES * scale {
             return None;
@@ -80,13 +78,13 @@ impl Sides {
             return Some(slope);
         }
         let cell = map.lattice.index(at)?;
-        let side = map.lattice.direction(&map.openness, cell);
-        let both_sides = [side, normal].map(|side| side == Vector2::zeros());
+        let other = map.sides[cell].facing();
+        let is_known = |facing: Facing| facing.normal != Vector2::zeros();
         let counts = map.state[cell] == State::Free
-            || both_sides == [true, true]
-            || side.dot(&normal) >= self.least_cosine();
-        let across = if self == Self::Facing && normal != Vector2::zeros() {
-            normal * normal.dot(&slope.gradient)
+            || !(is_known(facing) || is_known(other))
+            || facing.agreement(other) >= self.least_cosine();
+        let across = if self == Self::Facing && is_known(facing) {
+            facing.normal * facing.normal.dot(&slope.gradient)
         } else {
             slope.gradient
         };
@@ -125,9 +123,14 @@ pub(crate) fn follow(
     for &scale in scales {
         let centre = on_from_map * mean;
         let mut sums = Sums { scale_sq: scale * scale, ..Sums::default() };
-        for &WallPoint { at, normal } in walls {
+        for &WallPoint { at, facing } in walls {
             let place = on_from_map * at;
-            if let Some(slope) = Sides::NotOpposite.pull(on, place, on_from_map * normal, scale) {
+            if let Some(slope) = Sides::NotOpposite.pull(
+                on,
+                place,
+                facing.turned(|normal| on_from_map * normal),
+                scale,
+            ) {
                 sums.add(slope.value, slope.gradient, place - centre);
             }
         }
@@ -168,7 +171,7 @@ pub(crate) fn polish(
 
 /// Residuals are the distances of the walls of each map in the field of the other, weighted after
 /// Geman and McClure: w = (σ²/(σ² + d²))².
-pub(crate) fn normal_equations(
+fn normal_equations(
     first: &PreparedMap,
     second: &PreparedMap,
     first_from_second: &Se2,
@@ -177,22 +180,59 @@ pub(crate) fn normal_equations(
 ) -> Normal {
     let centre = *first_from_second * second.centre;
     let mut sums = Sums { scale_sq: scale * scale, ..Sums::default() };
-    for &WallPoint { at, normal } in second.walls.iter().take(points.most) {
+    each_pull(first, second, first_from_second, scale, points, |place, slope| {
+        sums.add(slope.value, slope.gradient, place - centre);
+    });
+    sums.into_normal(centre)
+}
+
+/// The normal equations of each square of `side` metres in the frame of the first map, all about
+/// one centre; errors of walls in one square are one error, from drift or from how cells were cut.
+pub(crate) fn clustered_equations(
+    first: &PreparedMap,
+    second: &PreparedMap,
+    first_from_second: &Se2,
+    scale: f64,
+    points: Points,
+    side: f64,
+) -> Vec<Normal> {
+    let centre = *first_from_second * second.centre;
+    let mut clusters: BTreeMap<[usize; 2], Sums> = BTreeMap::new();
+    each_pull(first, second, first_from_second, scale, points, |place, slope| {
+        let square = [place.x, place.y].map(|along| floor_index((along / side).max(0.0)));
+        let sums = clusters
+            .entry(square)
+            .or_insert_with(|| Sums { scale_sq: scale * scale, ..Sums::default() });
+        sums.add(slope.value, slope.gradient, place - centre);
+    });
+    clusters.into_values().map(|sums| sums.into_normal(centre)).collect()
+}
+
+/// Hands every wall point that counts, of both maps, to `add`: its place in the frame of the first
+/// map, and how its distance changes with a motion of the second.
+fn each_pull(
+    first: &PreparedMap,
+    second: &PreparedMap,
+    first_from_second: &Se2,
+    scale: f64,
+    points: Points,
+    mut add: impl FnMut(Point2<f64>, Slope),
+) {
+    for &WallPoint { at, facing } in second.walls.iter().take(points.most) {
         let in_first = *first_from_second * at;
-        if let Some(slope) = points.sides.pull(first, in_first, *first_from_second * normal, scale)
-        {
-            sums.add(slope.value, slope.gradient, in_first - centre);
+        let facing = facing.turned(|normal| *first_from_second * normal);
+        if let Some(slope) = points.sides.pull(first, in_first, facing, scale) {
+            add(in_first, slope);
         }
     }
     let second_from_first = first_from_second.inverse();
-    for &WallPoint { at, normal } in first.walls.iter().take(points.most) {
+    for &WallPoint { at, facing } in first.walls.iter().take(points.most) {
         let in_second = second_from_first * at;
-        if let Some(slope) = points.sides.pull(second, in_second, second_from_first * normal, scale)
-        {
-            sums.add(slope.value, -(*first_from_second * slope.gradient), at - centre);
+        let facing = facing.turned(|normal| second_from_first * normal);
+        if let Some(slope) = points.sides.pull(second, in_second, facing, scale) {
+            add(at, Slope { gradient: -(*first_from_second * slope.gradient), ..slope });
         }
     }
-    sums.into_normal(centre)
 }
 
 impl Normal {

@@ -1,6 +1,6 @@
 //! What a match found.
 
-use nalgebra::Vector2;
+use nalgebra::{Point2, Vector2};
 use ogm_core::{Outcome, RelativePose, Se2};
 
 use crate::Evidence;
@@ -36,6 +36,8 @@ pub struct Hypothesis {
     pub agreement: f64,
     /// The sums behind score, overlap and agreement.
     pub evidence: Evidence,
+    /// How the maps are bent against each other.
+    pub bend: Bend,
 }
 
 /// A direction along which the maps could slide, as in a corridor.
@@ -45,4 +47,30 @@ pub struct WeakDirection {
     pub direction: Vector2<f64>,
     /// Standard deviation along it, metres.
     pub sigma_m: f64,
+}
+
+/// How far parts of the source map, about the size of a room, lie from where its pose as one piece
+/// puts them: what drift did to either map.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Bend {
+    /// Root mean square of the shifts, weighed by the wall that fits, metres.
+    pub rms_m: f64,
+    /// Change of length of the source along x and y of its own map that the shifts show, over its
+    /// length: 0.05 where the target is 5 % longer; zero where too few parts fit to say.
+    pub stretch: Vector2<f64>,
+    /// Parts of which at least half the wall fits.
+    pub patches: Vec<PatchMotion>,
+}
+
+/// Where a part of the source map lies on the target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PatchMotion {
+    /// The middle of its walls, in the source map, metres.
+    pub at: Point2<f64>,
+    /// How far it lies from where the pose puts it, in target axes, metres.
+    pub shift: Vector2<f64>,
+    /// And how far it is turned, radians.
+    pub turn: f64,
+    /// Metres of its wall that fit.
+    pub hit_m: f64,
 }

@@ -5,7 +5,6 @@ use ogm_core::{Cancelled, Progress, Se2, Stage, Steps};
 use crate::bounds::Bounds;
 use crate::evaluate::{evaluate, evaluate_rigid};
 use crate::evidence::Evidence;
-use crate::log_odds::rough_log_odds;
 use crate::params::Effort;
 use crate::prepare::PreparedMap;
 use crate::refine::{Points, Sides, refine};
@@ -109,14 +108,14 @@ impl<'a> Search<'a> {
     fn tier(&self, effort: Effort) -> Tier {
         match effort {
             Effort::Fast => {
-                Tier { rotations: self.suggested.clone(), candidates: 60, survivors: 16 }
+                Tier { rotations: self.suggested.clone(), candidates: 40, survivors: 8 }
             }
             Effort::Standard => {
                 let degree = 1.0_f64.to_radians();
                 let step = 1.5 * self.coarse.cell / self.coarse.radius();
                 let step = step.clamp(0.5 * degree, 2.0 * degree);
                 let rotations = rotation::fan(&self.suggested, 0.9 * degree, step);
-                Tier { rotations, candidates: 100, survivors: 16 }
+                Tier { rotations, candidates: 60, survivors: 10 }
             }
             Effort::Thorough => {
                 let mut rotations = rotation::sweep();
@@ -149,7 +148,7 @@ impl<'a> Search<'a> {
             let start_first_from_second = candidate.first_from_second;
             let first_from_second = refine(first, second, start_first_from_second, &scales, points);
             let evidence = evaluate_rigid(first, second, &first_from_second, reach, COARSE_POINTS);
-            let score = rough_log_odds(&evidence);
+            let score = evidence.score();
             refined.push(Candidate { first_from_second, score });
             done.step()?;
         }
@@ -176,9 +175,7 @@ impl<'a> Search<'a> {
             let start_first_from_second = candidate.first_from_second;
             let first_from_second = refine(first, second, start_first_from_second, &scales, used);
             if self.bounds.is_none_or(|bounds| bounds.contains(&first_from_second)) {
-                let evidence =
-                    evaluate(first, second, &first_from_second, self.reach(), FINE_POINTS);
-                self.fits.push(Fit { first_from_second, evidence, score: evidence.score() });
+                self.fits.push(evaluate_in_full(first, second, first_from_second));
             }
             done.step()?;
         }
@@ -192,4 +189,15 @@ impl<'a> Search<'a> {
     fn resolution(&self) -> f64 {
         self.first.resolution().max(self.second.resolution())
     }
+}
+
+/// All that two maps say about a pose.
+pub(crate) fn evaluate_in_full(
+    first: &PreparedMap,
+    second: &PreparedMap,
+    first_from_second: Se2,
+) -> Fit {
+    let reach = Reach::at(first.resolution().max(second.resolution()));
+    let evidence = evaluate(first, second, &first_from_second, reach, FINE_POINTS);
+    Fit { first_from_second, evidence, score: evidence.score() }
 }

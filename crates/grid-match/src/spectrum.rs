@@ -112,8 +112,8 @@ mod tests {
             line(1.0, 1.0, 0.6, 5.0),
         ];
         let turn = Rotation2::new(turn);
-        let normal = Vector2::zeros();
-        lines.concat().into_iter().map(|at| WallPoint { at: turn * at + shift, normal }).collect()
+        let facing = crate::sides::Facing::UNKNOWN;
+        lines.concat().into_iter().map(|at| WallPoint { at: turn * at + shift, facing }).collect()
     }
 
     proptest! {

@@ -1,10 +1,11 @@
 //! What the walls of one map meet in another.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::Matrix2;
 use ogm_core::Se2;
 
-use crate::crop::State;
 use crate::prepare::PreparedMap;
+use crate::sides::Facing;
+use crate::state::State;
 use crate::wall_points::WallPoint;
 
 /// Distances that divide a hit from a near miss and that from a conflict, metres.
@@ -23,13 +24,15 @@ impl Reach {
 }
 
 /// Metres of wall of one map by what the other says there.
-#[derive(Default)]
+#[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct WallCounts {
     pub(crate) hit: f64,
     pub(crate) near_miss: f64,
     pub(crate) conflict: f64,
     pub(crate) same_side: f64,
     pub(crate) opposite_side: f64,
+    /// Σ d² over hits, d the distance of each, cubic metres.
+    pub(crate) scatter: f64,
     /// Σ n nᵀ over hits from the same side.
     pub(crate) spread: Matrix2<f64>,
 }
@@ -66,8 +69,9 @@ impl WallCounts {
             let Some(cell) = on.lattice.index(at) else { continue };
             if distance <= reach.hit {
                 self.hit += length;
-                let normal = *on_from_map * wall.normal;
-                self.add_side(normal, on.lattice.direction(&on.openness, cell), length);
+                self.scatter += length * distance * distance;
+                let facing = wall.facing.turned(|normal| *on_from_map * normal);
+                self.add_side(facing, on.sides[cell].facing(), length);
             } else if on.state[cell] == State::Free {
                 if distance <= reach.near {
                     self.near_miss += length;
@@ -78,11 +82,32 @@ impl WallCounts {
         }
     }
 
-    fn add_side(&mut self, normal: Vector2<f64>, other: Vector2<f64>, length: f64) {
-        let agreement = normal.dot(&other);
+    /// Metres that fit less those that do not.
+    fn margin(&self) -> f64 {
+        self.hit - self.near_miss - self.conflict
+    }
+
+    /// Whether walls fit better than `other` of the same walls: more fit, or as many and closer.
+    pub(crate) fn fits_better_than(&self, other: &Self) -> bool {
+        let (margin, scatter) = (self.margin(), self.scatter);
+        margin > other.margin() || (margin == other.margin() && scatter < other.scatter)
+    }
+
+    pub(crate) fn merge(&mut self, other: &Self) {
+        self.hit += other.hit;
+        self.near_miss += other.near_miss;
+        self.conflict += other.conflict;
+        self.same_side += other.same_side;
+        self.opposite_side += other.opposite_side;
+        self.scatter += other.scatter;
+        self.spread += other.spread;
+    }
+
+    fn add_side(&mut self, facing: Facing, other: Facing, length: f64) {
+        let agreement = facing.agreement(other);
         if agreement > 0.0 {
             self.same_side += length * agreement;
-            self.spread += normal * normal.transpose() * length;
+            self.spread += facing.normal * facing.normal.transpose() * length;
         } else {
             self.opposite_side -= length * agreement;
         }

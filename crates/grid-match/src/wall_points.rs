@@ -2,46 +2,97 @@
 
 use nalgebra::{Point2, Vector2};
 
-use crate::crop::State;
 use crate::lattice::{Lattice, floor_index};
+use crate::sides::{Facing, Side};
+use crate::state::State;
 
 /// A point on a wall, local frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct WallPoint {
     pub(crate) at: Point2<f64>,
-    /// Unit vector into free space; zero where both sides are free, or none.
-    pub(crate) normal: Vector2<f64>,
+    pub(crate) facing: Facing,
 }
 
-/// One point for each square of `spacing` that holds wall: the mean of its occupied cells.
-pub(crate) fn wall_points(
-    state: &[State],
-    openness: &[f32],
-    lattice: &Lattice,
-    spacing: f64,
-) -> Vec<WallPoint> {
-    let columns = floor_index(lattice.width as f64 * lattice.resolution / spacing) + 1;
-    let rows = floor_index(lattice.height as f64 * lattice.resolution / spacing) + 1;
-    let mut sums = vec![(Vector2::zeros(), 0_u32); columns * rows];
-    for (at, _) in state.iter().enumerate().filter(|&(_, &cell)| cell == State::Occupied) {
-        let centre = lattice.centre(at);
-        let (column, row) = (floor_index(centre.x / spacing), floor_index(centre.y / spacing));
-        let (sum, cells) = &mut sums[row * columns + column];
-        *sum += centre.coords;
-        *cells += 1;
+/// Where the walls of a map are.
+pub(crate) struct Walls<'a> {
+    pub(crate) state: &'a [State],
+    pub(crate) sides: &'a [Side],
+    pub(crate) lattice: &'a Lattice,
+    /// Of each cell, in 1/200 of its side; empty for none.
+    pub(crate) offsets: &'a [[i8; 2]],
+}
+
+impl Walls<'_> {
+    /// One point for each square of `spacing` that holds wall: the mean of its cells.
+    pub(crate) fn points(&self, spacing: f64) -> Vec<WallPoint> {
+        let lattice = self.lattice;
+        let columns = floor_index(lattice.width as f64 * lattice.resolution / spacing) + 1;
+        let rows = floor_index(lattice.height as f64 * lattice.resolution / spacing) + 1;
+        let mut sums = vec![Sum::default(); columns * rows];
+        for (at, _) in self.state.iter().enumerate().filter(|&(_, &cell)| cell == State::Wall) {
+            let place = self.place(at);
+            let (column, row) = (floor_index(place.x / spacing), floor_index(place.y / spacing));
+            sums[row * columns + column].add(place, self.sides[at].facing());
+        }
+        let mut points: Vec<(u64, WallPoint)> = (0_u64..)
+            .zip(sums)
+            .filter(|(_, sum)| sum.cells > 0)
+            .map(|(index, sum)| (scatter(index), sum.point()))
+            .collect();
+        points.sort_unstable_by_key(|&(order, _)| order);
+        points.into_iter().map(|(_, point)| point).collect()
     }
-    let mut points: Vec<(u64, WallPoint)> = (0_u64..)
-        .zip(sums)
-        .filter(|(_, (_, cells))| *cells > 0)
-        .map(|(index, (sum, cells))| {
-            let at = Point2::from(sum / f64::from(cells));
-            let cell = lattice.index(at);
-            let normal = cell.map_or_else(Vector2::zeros, |cell| lattice.direction(openness, cell));
-            (scatter(index), WallPoint { at, normal })
-        })
-        .collect();
-    points.sort_unstable_by_key(|&(order, _)| order);
-    points.into_iter().map(|(_, point)| point).collect()
+
+    fn place(&self, at: usize) -> Point2<f64> {
+        let centre = self.lattice.centre(at);
+        match self.offsets.get(at) {
+            Some(&[x, y]) => {
+                let offset = Vector2::new(f64::from(x), f64::from(y)) / 200.0;
+                centre + offset * self.lattice.resolution
+            }
+            None => centre,
+        }
+    }
+}
+
+#[derive(Debug, Clone, Copy, Default)]
+struct Sum {
+    cells: u32,
+    place: Vector2<f64>,
+    /// Of the sides of walls seen from one, and of those seen from both.
+    one: Vector2<f64>,
+    both: Vector2<f64>,
+    known: u32,
+}
+
+impl Sum {
+    fn add(&mut self, place: Point2<f64>, facing: Facing) {
+        self.cells += 1;
+        self.place += place.coords;
+        if facing.normal == Vector2::zeros() {
+            return;
+        }
+        self.known += 1;
+        if facing.is_open_behind {
+            let sign = if self.both.dot(&facing.normal) < 0.0 { -1.0 } else { 1.0 };
+            self.both += facing.normal * sign;
+        } else {
+            self.one += facing.normal;
+        }
+    }
+
+    fn point(&self) -> WallPoint {
+        let at = Point2::from(self.place / f64::from(self.cells));
+        let (one, both) = (self.one.norm(), self.both.norm());
+        let facing = if both > one {
+            Facing { normal: self.both / both, is_open_behind: true }
+        } else if one > 0.3 * f64::from(self.known) {
+            Facing { normal: self.one / one, is_open_behind: false }
+        } else {
+            Facing::UNKNOWN
+        };
+        WallPoint { at, facing }
+    }
 }
 
 /// The finaliser of SplitMix64: a bijection, so no two indices tie.

@@ -150,6 +150,12 @@ pub enum Refusal {
         /// Probability needed.
         need: f64,
     },
+    /// The search ended at its limit of work, so that a better answer may be among what was not
+    /// tried.
+    SearchCut {
+        /// Work done, in the units of the limit.
+        work: u64,
+    },
     /// Several poses pass every test, and nothing says which is right.
     SeveralVerified {
         /// Poses that pass.
@@ -190,6 +196,7 @@ impl Refusal {
             | Self::ConflictingCells { .. }
             | Self::EntropyElsewhere { .. } => "contradiction",
             Self::Slides { .. } => "unobservable",
+            Self::SearchCut { .. } => "search cut",
             Self::Unlikely { .. } => "unlikely",
             Self::Ambiguous { .. } | Self::SeveralPoses { .. } | Self::SeveralVerified { .. } => {
                 "ambiguous"
@@ -211,6 +218,9 @@ impl Refusal {
         match *self {
             Self::TooLittleStructure { have, need } => {
                 format!("{have} occupied cells, at least {need} needed; explore further")
+            }
+            Self::SearchCut { work } => {
+                format!("the limit of {work} units of work left something untried; raise it")
             }
             Self::TooLittleWall { have_m, need_m } => {
                 format!("{have_m:.1} m of wall, at least {need_m:.1} m needed; explore further")

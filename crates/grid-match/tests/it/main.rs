@@ -7,4 +7,5 @@ mod metamorphic;
 mod progress;
 mod refusals;
 mod simulated;
+mod styles;
 mod world;

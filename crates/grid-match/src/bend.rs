@@ -1,0 +1,71 @@
+//! How two maps are bent against each other.
+
+use nalgebra::{Rotation2, Vector2};
+use ogm_core::{Se2, wrap_angle};
+
+use crate::patches::relax;
+use crate::prepare::PreparedMap;
+use crate::report::{Bend, PatchMotion};
+use crate::wall_counts::Reach;
+
+/// Fewest patches that say anything about a stretch.
+const LEAST_PATCHES: usize = 4;
+/// Least metres over which patches must lie to say anything about a stretch.
+const LEAST_LENGTH_M: f64 = 6.0;
+
+/// Motions of the patches of `source` on `target` beside the pose of the whole map.
+pub(crate) fn bend(
+    target: &PreparedMap,
+    source: &PreparedMap,
+    target_local_from_source_local: &Se2,
+) -> Bend {
+    let reach = Reach::at(target.resolution().max(source.resolution()));
+    let pose = target_local_from_source_local;
+    let relaxed = relax(source, target, pose, reach, source.walls.len());
+    let patches: Vec<PatchMotion> = relaxed
+        .patches
+        .iter()
+        .filter(|patch| patch.hit_m >= 0.5 * patch.wall_m)
+        .map(|patch| {
+            let shift = patch.on_from_map * patch.centre - *pose * patch.centre;
+            PatchMotion {
+                at: source.map_from_local * patch.centre,
+                shift: target.map_from_local * shift,
+                turn: wrap_angle(patch.on_from_map.theta() - pose.theta()),
+                hit_m: patch.hit_m,
+            }
+        })
+        .collect();
+    let weight: f64 = patches.iter().map(|patch| patch.hit_m).sum();
+    let squares = patches.iter().map(|patch| patch.hit_m * patch.shift.norm_squared());
+    let rms_m = (squares.sum::<f64>() / weight.max(1e-9)).sqrt();
+    let target_from_source = target.map_from_local * *pose * source.map_from_local.inverse();
+    let stretch = stretch(&patches, target_from_source.theta());
+    Bend { rms_m, stretch, patches }
+}
+
+/// Slope of the shifts over the place along each axis of the source, by weighted least squares.
+fn stretch(patches: &[PatchMotion], turn: f64) -> Vector2<f64> {
+    let weight: f64 = patches.iter().map(|patch| patch.hit_m).sum();
+    if patches.len() < LEAST_PATCHES || weight <= 0.0 {
+        return Vector2::zeros();
+    }
+    let source_from_target = Rotation2::new(-turn);
+    let shift = |patch: &PatchMotion| source_from_target * patch.shift;
+    let mean = |value: &dyn Fn(&PatchMotion) -> Vector2<f64>| -> Vector2<f64> {
+        patches.iter().map(|patch| value(patch) * patch.hit_m).sum::<Vector2<f64>>() / weight
+    };
+    let (middle, common) = (mean(&|patch| patch.at.coords), mean(&shift));
+    let along = |axis: usize| {
+        let place = |patch: &PatchMotion| patch.at[axis] - middle[axis];
+        let spread: f64 =
+            patches.iter().map(|patch| patch.hit_m * place(patch).powi(2)).sum::<f64>() / weight;
+        let product: f64 = patches
+            .iter()
+            .map(|patch| patch.hit_m * place(patch) * (shift(patch)[axis] - common[axis]))
+            .sum::<f64>()
+            / weight;
+        if spread.sqrt() * 2.0 < LEAST_LENGTH_M { 0.0 } else { product / spread }
+    };
+    Vector2::new(along(0), along(1))
+}

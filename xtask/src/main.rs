@@ -9,6 +9,7 @@
 mod bar;
 mod compare;
 mod diff;
+mod fit;
 #[cfg(test)]
 mod layers;
 mod race;
@@ -34,6 +35,8 @@ enum Task {
     Compare(compare::Args),
     /// Shows what changed between two records of `compare`; fails if a criterion no longer holds.
     Diff(diff::Args),
+    /// Fits the weights of the matcher and writes them into its source.
+    Fit(fit::Args),
     /// Times the command `ogm` and other tools on the same map pairs, and scores their answers.
     Race(race::Args),
     /// Writes the example maps and tag logs into a folder.
@@ -48,6 +51,7 @@ fn main() -> ExitCode {
     let done = match Cli::parse().task {
         Task::Compare(args) => compare::run(args),
         Task::Diff(args) => diff::run(&args),
+        Task::Fit(args) => fit::run(args),
         Task::Race(args) => race::run(args),
         Task::Fixtures { out } => ogm_eval::fixtures::write(&out).map(|()| ExitCode::SUCCESS),
     };

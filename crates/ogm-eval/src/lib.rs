@@ -15,6 +15,7 @@
 //! | [`compare`] | runs the experiments and writes the report |
 //! | [`race`] | our command beside other tools, in turns |
 //! | [`record`] | dated results, and what changed between two |
+//! | [`fit`] | the weights of the matcher, from labelled pairs |
 //! | [`fixtures`] | the example maps |
 //! | `report`, `draw` | the report's files; charts, plans, heat maps |
 
@@ -24,6 +25,7 @@ mod cases;
 pub mod compare;
 mod draw;
 mod experiments;
+pub mod fit;
 pub mod fixtures;
 mod judge;
 mod measured;

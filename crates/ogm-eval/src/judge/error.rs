@@ -1,7 +1,7 @@
 //! Errors of a transform: of one pose, and over the walls.
 
-use nalgebra::Point2;
-use ogm_core::{Se2, wrap_angle};
+use nalgebra::{Point2, Vector3};
+use ogm_core::{RelativePose, Se2, wrap_angle};
 
 /// The paper's pixel, metres.
 pub(crate) const PIXEL: f64 = 0.02;
@@ -47,3 +47,18 @@ impl TransformError {
         Self { mse_disp: (pose.displacement / PIXEL).powi(2), mse_nn: f64::NAN, pose }
     }
 }
+
+/// Squared error of a pose in units of its own covariance over (x, y, θ): of three degrees of
+/// freedom, so 95 % lie below [`NEES_95`]. `None` for a covariance without an inverse.
+pub(crate) fn nees(pose: &RelativePose, true_target_from_source: &Se2) -> Option<f64> {
+    let (found, truth) = (&pose.target_from_source, true_target_from_source);
+    let error = Vector3::new(
+        found.x() - truth.x(),
+        found.y() - truth.y(),
+        wrap_angle(found.theta() - truth.theta()),
+    );
+    Some((error.transpose() * pose.covariance.try_inverse()? * error)[0])
+}
+
+/// 95 % quantile of χ² with three degrees of freedom.
+pub(crate) const NEES_95: f64 = 7.815;

@@ -1,25 +1,48 @@
 //! What X7 must show.
 
 use super::record::{Judged, count, to_merge};
+use ogm_sim::MapStyle;
+
 use crate::report::Criterion;
 use crate::stats::{Share, median};
 
 /// Overlap at which a merge is expected.
 const ENOUGH: f64 = 0.35;
 
+/// From here on a pair is bent, metres of residual.
+const BENT_M: f64 = 0.15;
+
 /// What is asked for: percents, cells and degrees.
 struct Floors {
     right: f64,
     found: f64,
+    plain: f64,
     falsely: f64,
     cells: f64,
     degrees: f64,
+    bent: f64,
 }
 
-const FULL: Floors = Floors { right: 99.0, found: 75.0, falsely: 0.5, cells: 0.25, degrees: 0.05 };
-/// Some forty pairs to merge and sixty to refuse: none may be wrong or false, and two in three
-/// found where three in four are.
-const QUICK: Floors = Floors { right: 100.0, found: 65.0, falsely: 0.0, cells: 0.35, degrees: 0.1 };
+const FULL: Floors = Floors {
+    right: 99.0,
+    found: 65.0,
+    plain: 75.0,
+    falsely: 0.5,
+    cells: 0.25,
+    degrees: 0.05,
+    bent: 50.0,
+};
+/// Some sixty pairs to merge and eighty to refuse: none may be wrong or false, and one in two found
+/// where two in three are.
+const QUICK: Floors = Floors {
+    right: 100.0,
+    found: 50.0,
+    plain: 55.0,
+    falsely: 0.0,
+    cells: 0.35,
+    degrees: 0.1,
+    bent: 30.0,
+};
 
 pub(super) fn criteria(judged: &[Judged], quick: bool) -> Vec<Criterion> {
     let floors = if quick { QUICK } else { FULL };
@@ -70,6 +93,32 @@ pub(super) fn criteria(judged: &[Judged], quick: bool) -> Vec<Criterion> {
             &|ours| ours <= most_falsely,
         ),
     ];
+    let by_one_mapper = to_merge(judged, |one| {
+        let enough = one.overlap.is_some_and(|overlap| overlap >= ENOUGH);
+        !one.kind.repeats() && enough && one.styles == [MapStyle::Plain; 2]
+    });
+    let plainly_found = count(&by_one_mapper, is_merged_rightly);
+    let least_plain = floors.plain;
+    criteria.push(criterion(
+        "found, plain",
+        format!("merged rightly ≥ {least_plain} % of maps in the plain style, overlap ≥ {ENOUGH}"),
+        plainly_found,
+        by_one_mapper.len(),
+        &|ours| ours >= least_plain,
+    ));
+    let bent = to_merge(judged, |one| {
+        let enough = one.overlap.is_some_and(|overlap| overlap >= ENOUGH);
+        !one.kind.repeats() && enough && one.residual >= BENT_M
+    });
+    let bent_found = count(&bent, is_merged_rightly);
+    let least_bent = floors.bent;
+    criteria.push(criterion(
+        "bent",
+        format!("merged rightly ≥ {least_bent} % where bent by ≥ {BENT_M} m, overlap ≥ {ENOUGH}"),
+        bent_found,
+        bent.len(),
+        &|ours| ours >= least_bent,
+    ));
     criteria.extend(accuracy(&plain, &floors));
     criteria
 }

@@ -12,7 +12,7 @@ use crate::report::Section;
 
 const ANALYSIS: &str = "\
 Pairs of maps drawn at random: floors of seven kinds, the parts that two robots explore, their \
-sensors and resolutions, drift, moved furniture. A merge is right if the root mean square \
+sensors and resolutions, drift, moved furniture, the mappers that saved the maps. A merge is right if the root mean square \
 displacement over what both observed is below 0.4 m, besides the residual of the best rigid \
 transform of bent maps, and the turn below 3°.
 
@@ -35,6 +35,8 @@ pub(crate) fn measure(options: &Options) -> anyhow::Result<Measured> {
         tables: vec![
             tables::by_kind(&judged, drawn),
             tables::by_overlap(&judged),
+            tables::by_bend(&judged),
+            tables::by_style(&judged),
             tables::to_refuse(&judged),
             curve,
         ],

@@ -1,7 +1,7 @@
 //! What is kept of a labelled pair, and how pairs are counted.
 
 use ogm_core::Refusal;
-use ogm_sim::{FloorKind, Relation};
+use ogm_sim::{FloorKind, MapStyle, Relation};
 
 use crate::judge::{PoseError, TransformError};
 use crate::measured::{Run, RunResult};
@@ -21,6 +21,14 @@ pub(super) struct Judged {
     pub(super) refusal: Option<Refusal>,
     /// Whether the right pose is among the hypotheses.
     pub(super) is_listed: bool,
+    /// Who made each map.
+    pub(super) styles: [MapStyle; 2],
+    /// What no rigid transform removes, root mean square over the shared area, metres.
+    pub(super) residual: f64,
+    /// Squared error of the best pose in units of its covariance.
+    pub(super) nees: Option<f64>,
+    /// Whether it is merged where it is known that the building repeats; asked of floors that do.
+    pub(super) is_merged_though_it_repeats: Option<bool>,
 }
 
 /// The best hypothesis.

@@ -1,8 +1,9 @@
 //! The counts of X7.
 
-use ogm_sim::{FloorKind, Relation};
+use ogm_sim::{FloorKind, MapStyle, Relation};
 
 use super::record::{Judged, count, to_merge};
+use crate::judge::NEES_95;
 use crate::report::Table;
 use crate::stats::wilson_ci95;
 
@@ -74,6 +75,55 @@ pub(super) fn by_overlap(judged: &[Judged]) -> Table {
     }
 }
 
+/// By who made either map.
+pub(super) fn by_style(judged: &[Judged]) -> Table {
+    let rows = MapStyle::ALL.map(|style| {
+        let pairs = to_merge(judged, |one| !one.kind.repeats() && one.styles.contains(&style));
+        [vec![style.name().to_owned()], columns(&pairs)].concat()
+    });
+    Table {
+        caption: "Pairs to merge by the style of either map, floors that do not repeat.".to_owned(),
+        header: header("style"),
+        rows: rows.to_vec(),
+    }
+}
+
+/// Edges of the bins of bend, metres.
+const BENDS: [[f64; 2]; 4] = [[0.0, 0.01], [0.01, 0.08], [0.08, 0.15], [0.15, f64::INFINITY]];
+
+/// By how far the maps are bent against each other, and whether the covariance of what was merged
+/// rightly holds.
+pub(super) fn by_bend(judged: &[Judged]) -> Table {
+    let rows = BENDS.map(|[low, high]| {
+        let pairs = to_merge(judged, |one| {
+            let enough = one.overlap.is_some_and(|overlap| overlap >= 0.35);
+            !one.kind.repeats() && enough && one.residual >= low && one.residual < high
+        });
+        let name = if high.is_finite() {
+            format!("{low:.2}–{high:.2} m")
+        } else {
+            format!("from {low:.2} m")
+        };
+        let nees: Vec<f64> = pairs
+            .iter()
+            .filter(|one| one.is_merged() && one.is_right())
+            .filter_map(|one| one.nees)
+            .collect();
+        let inside = nees.iter().filter(|&&nees| nees <= NEES_95).count();
+        [vec![name], columns(&pairs), vec![share(inside, nees.len())]].concat()
+    });
+    let mut header = header("residual");
+    header.push("error inside the stated 95 %".to_owned());
+    Table {
+        caption:
+            "Pairs to merge at overlap from 0.35 by the residual of the best rigid transform, \
+                  floors that do not repeat."
+                .to_owned(),
+        header,
+        rows: rows.to_vec(),
+    }
+}
+
 pub(super) fn to_refuse(judged: &[Judged]) -> Table {
     let row = |name: &str, holds: &dyn Fn(&Judged) -> bool| {
         let pairs: Vec<&Judged> =
@@ -82,6 +132,16 @@ pub(super) fn to_refuse(judged: &[Judged]) -> Table {
         vec![name.to_owned(), pairs.len().to_string(), merged]
     };
     let apart = |one: &Judged| one.relation == Relation::Apart;
+    let repeating: Vec<bool> = judged
+        .iter()
+        .filter(|one| apart(one))
+        .filter_map(|one| one.is_merged_though_it_repeats)
+        .collect();
+    let told = vec![
+        "the same, and the matcher is told that it repeats".to_owned(),
+        repeating.len().to_string(),
+        share(repeating.iter().filter(|&&merged| merged).count(), repeating.len()),
+    ];
     Table {
         caption: "Pairs to refuse, and how many were merged all the same.".to_owned(),
         header: ["maps", "pairs", "merged"].map(str::to_owned).to_vec(),
@@ -92,6 +152,7 @@ pub(super) fn to_refuse(judged: &[Judged]) -> Table {
             }),
             row("all of these", &Judged::is_decidable),
             row("two parts of a floor that repeats", &|one| apart(one) && one.kind.repeats()),
+            told,
         ],
     }
 }

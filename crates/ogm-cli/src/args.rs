@@ -100,6 +100,10 @@ pub(crate) struct SearchArgs {
     /// Least probability of an accepted match (match only)
     #[arg(long, value_name = "P", default_value_t = 0.90, value_parser = probability)]
     pub(crate) accept: f64,
+    /// The building is known to repeat itself, with equal rooms or mirrored halves: only what is
+    /// beyond doubt is believed (match only)
+    #[arg(long)]
+    pub(crate) repeats: bool,
     /// Seed of everything random
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,

@@ -47,7 +47,11 @@ pub(crate) fn search(
                 sigma_rad: sigma.degrees.to_radians(),
             },
         ),
-        matching: MatchParams { accept: args.accept, ..MatchParams::default() },
+        matching: MatchParams {
+            accept: args.accept,
+            repeats: args.repeats,
+            ..MatchParams::default()
+        },
         ..AlignParams::default()
     };
     let report = align_pair(args.method.into(), &robot(0), &robot(1), &params, progress)?;

@@ -48,6 +48,10 @@ pub fn align_pair(
     Ok(report)
 }
 
+/// A map that seems longer by more than this has another scale: drift bends maps, and stretches a
+/// building by less.
+const MOST_STRETCH: f64 = 0.02;
+
 /// Share of a call that its method takes; the rest is what the maps say about the answer.
 const SEARCH: f64 = 0.85;
 
@@ -101,6 +105,10 @@ impl Pair<'_> {
         let matching = MatchParams { prior, ..self.params.matching.clone() };
         let found = match_maps(self.target.map, self.source.map, &matching, progress)?;
         let best = found.hypotheses.first();
+        let stretch = best.map(|best| [best.bend.stretch.x, best.bend.stretch.y]);
+        let stretched = stretch
+            .filter(|stretch| stretch.iter().any(|share| share.abs() > MOST_STRETCH))
+            .map(|stretch| Warning::Stretched { stretch });
         Ok(PairReport {
             method: Method::Match,
             seed: self.params.seed,
@@ -109,7 +117,7 @@ impl Pair<'_> {
             overlap: best.map(|best| best.overlap),
             agreement: best.map(|best| best.agreement),
             hypotheses: found.hypotheses.iter().map(Hypothesis::from).collect(),
-            warnings: Vec::new(),
+            warnings: stretched.into_iter().collect(),
             stages: Stages { matching: Some(found), ..Stages::default() },
         })
     }

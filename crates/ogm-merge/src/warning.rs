@@ -35,6 +35,16 @@ pub enum Warning {
     /// The tags gave the answer, and a prior has no use there.
     #[error("the tags suffice, so the prior was not used; the method `match` uses it")]
     PriorUnused,
+    /// Parts of the maps lie as if one of them were longer.
+    #[error(
+        "the source is {:.1} % shorter than the target along its x and {:.1} % along its y: check its resolution",
+        100.0 * stretch[0],
+        100.0 * stretch[1]
+    )]
+    Stretched {
+        /// Change of length along x and y of the source, over its length.
+        stretch: [f64; 2],
+    },
     /// Both maps hold the same cells in the same place.
     #[error(
         "both maps hold the same cells in the same place: copies of one map, not two robots' maps"

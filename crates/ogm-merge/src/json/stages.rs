@@ -122,6 +122,19 @@ struct MatchJson {
     conflict_m: Option<f64>,
     /// Unit vector in target axes along which the walls hold it badly.
     weak_direction: Option<[f64; 2]>,
+    /// Root mean square by which its parts lie elsewhere than its pose says, metres.
+    bend_rms_m: Option<f64>,
+    bend: Vec<PatchJson>,
+}
+
+/// A part of the source, about the size of a room.
+#[derive(Serialize)]
+struct PatchJson {
+    /// In the source map.
+    at_m: [f64; 2],
+    /// In target axes.
+    shift_m: [f64; 2],
+    turn_deg: f64,
 }
 
 impl From<&MatchReport> for MatchJson {
@@ -137,6 +150,16 @@ impl From<&MatchReport> for MatchJson {
             weak_direction: best
                 .and_then(|best| best.weak_direction)
                 .map(|weak| [weak.direction.x, weak.direction.y]),
+            bend_rms_m: best.map(|best| best.bend.rms_m),
+            bend: best
+                .iter()
+                .flat_map(|best| &best.bend.patches)
+                .map(|patch| PatchJson {
+                    at_m: [patch.at.x, patch.at.y],
+                    shift_m: [patch.shift.x, patch.shift.y],
+                    turn_deg: patch.turn.to_degrees(),
+                })
+                .collect(),
         }
     }
 }

@@ -51,11 +51,14 @@ pub(crate) fn probabilities(scores: &[f64], beliefs: Beliefs, weights: &Weights)
     let Some(&best) = scores.first() else { return Vec::new() };
     let second = scores.get(1).copied().unwrap_or(NO_SECOND).max(NO_SECOND);
     let lead = (best - second).clamp(0.0, MOST_LEAD);
-    let doubt = if beliefs.repeats { weights.repeats } else { 0.0 };
-    let log_odds = weights.any + weights.score * best + weights.lead * lead
-        - weights.rival * second.max(FLOOR)
-        + beliefs.prior
-        - doubt;
+    let plain = weights.any + weights.score * best + weights.lead * lead
+        - weights.rival * second.max(FLOOR);
+    let of_maps = if beliefs.repeats {
+        plain.min(weights.repeats_odds * plain - weights.repeats)
+    } else {
+        plain
+    };
+    let log_odds = of_maps + beliefs.prior;
     let any = 1.0 / (1.0 + (-log_odds).exp());
     let shares: Vec<f64> = scores.iter().map(|score| (score - best).exp()).collect();
     let total: f64 = shares.iter().sum();

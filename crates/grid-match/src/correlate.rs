@@ -15,6 +15,10 @@ pub(crate) struct Correlator {
     along_columns: [Arc<dyn Fft<f32>>; 2],
     /// Of the first map, transposed.
     spectrum: Vec<Complex32>,
+}
+
+/// Room for one correlation after the other.
+pub(crate) struct Workspace {
     work: Vec<Complex32>,
     turned: Vec<Complex32>,
     scratch: Vec<Complex32>,
@@ -45,22 +49,11 @@ impl Correlator {
         let mut both =
             |length| [planner.plan_fft_forward(length), planner.plan_fft_inverse(length)];
         let (along_rows, along_columns) = (both(columns), both(rows));
-        let scratch =
-            along_rows.iter().chain(&along_columns).map(|fft| fft.get_inplace_scratch_len());
-        let scratch = vec![Complex32::default(); scratch.max().unwrap_or(0)];
-        let zero = vec![Complex32::default(); columns * rows];
-        let mut correlator = Self {
-            columns,
-            rows,
-            along_rows,
-            along_columns,
-            spectrum: zero.clone(),
-            work: zero.clone(),
-            turned: zero,
-            scratch,
-        };
-        correlator.transform(first);
-        std::mem::swap(&mut correlator.spectrum, &mut correlator.turned);
+        let mut correlator =
+            Self { columns, rows, along_rows, along_columns, spectrum: Vec::new() };
+        let mut space = correlator.workspace();
+        correlator.transform(first, &mut space);
+        correlator.spectrum = space.turned;
         correlator
     }
 
@@ -69,29 +62,43 @@ impl Correlator {
         self.columns * self.rows
     }
 
-    /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ.
-    pub(crate) fn correlate(&mut self, second: &CorrelationPlanes) -> Surface<'_> {
-        self.transform(second);
-        for (value, &first) in self.turned.iter_mut().zip(&self.spectrum) {
-            *value = first * value.conj();
-        }
-        self.along_columns[1].process_with_scratch(&mut self.turned, &mut self.scratch);
-        transpose(&self.turned, &mut self.work, self.rows);
-        self.along_rows[1].process_with_scratch(&mut self.work, &mut self.scratch);
-        Surface { columns: self.columns, rows: self.rows, scores: &self.work }
+    pub(crate) fn workspace(&self) -> Workspace {
+        let ffts = self.along_rows.iter().chain(&self.along_columns);
+        let scratch = ffts.map(|fft| fft.get_inplace_scratch_len()).max().unwrap_or(0);
+        let zeros = |length| vec![Complex32::default(); length];
+        let [work, turned] = [zeros(self.cells()), zeros(self.cells())];
+        Workspace { work, turned, scratch: zeros(scratch) }
     }
 
-    /// The transform of `map`, transposed, into `turned`.
-    fn transform(&mut self, map: &CorrelationPlanes) {
-        self.work.fill(Complex32::default());
+    /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ.
+    pub(crate) fn correlate<'a>(
+        &self,
+        second: &CorrelationPlanes,
+        space: &'a mut Workspace,
+    ) -> Surface<'a> {
+        self.transform(second, space);
+        let Workspace { work, turned, scratch } = space;
+        for (value, &first) in turned.iter_mut().zip(&self.spectrum) {
+            *value = first * value.conj();
+        }
+        self.along_columns[1].process_with_scratch(turned, scratch);
+        transpose(turned, work, self.rows);
+        self.along_rows[1].process_with_scratch(work, scratch);
+        Surface { columns: self.columns, rows: self.rows, scores: work }
+    }
+
+    /// The transform of `map`, transposed, into what is turned in `space`.
+    fn transform(&self, map: &CorrelationPlanes, space: &mut Workspace) {
+        let Workspace { work, turned, scratch } = space;
+        work.fill(Complex32::default());
         let rows = map.packed.chunks_exact(map.width);
-        for (output, row) in self.work.chunks_exact_mut(self.columns).zip(rows) {
+        for (output, row) in work.chunks_exact_mut(self.columns).zip(rows) {
             output[..map.width].copy_from_slice(row);
         }
-        let filled = &mut self.work[..map.height * self.columns];
-        self.along_rows[0].process_with_scratch(filled, &mut self.scratch);
-        transpose(&self.work, &mut self.turned, self.columns);
-        self.along_columns[0].process_with_scratch(&mut self.turned, &mut self.scratch);
+        let filled = &mut work[..map.height * self.columns];
+        self.along_rows[0].process_with_scratch(filled, scratch);
+        transpose(work, turned, self.columns);
+        self.along_columns[0].process_with_scratch(turned, scratch);
     }
 }
 
@@ -107,13 +114,14 @@ impl Surface<'_> {
         let scale = 1.0 / (columns * rows) as f32;
         let mut found = Vec::new();
         for row in 0..rows {
-            let [below, above] = [(row + rows - 1) % rows, (row + 1) % rows];
-            for column in 0..columns {
-                let here = self.score(column, row);
+            let around = |at: usize, count: usize| [(at + count - 1) % count, (at + 1) % count];
+            let [below, above] = around(row, rows);
+            let here = &self.scores[row * columns..][..columns];
+            for (column, here) in here.iter().map(|score| score.re).enumerate() {
                 if here * scale <= floor {
                     continue;
                 }
-                let [left, right] = [(column + columns - 1) % columns, (column + 1) % columns];
+                let [left, right] = around(column, columns);
                 let is_peak = here > self.score(left, row)
                     && here >= self.score(right, row)
                     && [left, column, right].iter().all(|&near| {
@@ -185,8 +193,9 @@ mod tests {
         fn every_shift_scores_what_the_sum_over_its_cells_does(
             first in planes(), second in planes(),
         ) {
-            let mut correlator = Correlator::new(&first, [second.width, second.height], [0, 0], 0);
-            let surface = correlator.correlate(&second);
+            let correlator = Correlator::new(&first, [second.width, second.height], [0, 0], 0);
+            let mut space = correlator.workspace();
+            let surface = correlator.correlate(&second, &mut space);
             let (columns, rows) = (surface.columns, surface.rows);
             let scale = 1.0 / (columns * rows) as f32;
             for row in 0..rows {

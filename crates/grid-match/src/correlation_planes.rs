@@ -57,10 +57,10 @@ impl FreeShare {
         let mut share = vec![0.0_f32; width * height];
         let part = (lattice.resolution / cell).powi(2) as f32;
         let columns: Vec<usize> = (0..lattice.width).map(coarse).collect();
-        for (row, cells) in map.state.chunks_exact(lattice.width).enumerate() {
+        for (row, cells) in map.cells.chunks_exact(lattice.width).enumerate() {
             let output = &mut share[coarse(row) * width..][..width];
-            for (&column, &state) in columns.iter().zip(cells) {
-                if state == State::Free {
+            for (&column, there) in columns.iter().zip(cells) {
+                if there.state == State::Free {
                     output[column] += part;
                 }
             }

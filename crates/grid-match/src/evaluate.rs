@@ -7,7 +7,11 @@ use crate::evidence::{Evidence, Relaxed};
 use crate::patches::relax;
 use crate::prepare::PreparedMap;
 use crate::state::State;
+use crate::surroundings::Surroundings;
 use crate::wall_counts::{Reach, WallCounts};
+
+/// Most samples of the area for each wall point that may be looked at.
+const SAMPLES_A_POINT: usize = 2;
 
 /// The evidence on at most `most` wall points of each map.
 pub(crate) fn evaluate(
@@ -45,13 +49,16 @@ pub(crate) fn evaluate_rigid(
     let forth = WallCounts::of(second, first, first_from_second, reach, most);
     let back = WallCounts::of(first, second, &first_from_second.inverse(), reach, most);
     let [mut free, mut known, mut near] = [0_u32, 0, 0];
-    for sample in &second.samples {
+    let stride = second.samples.len().div_ceil(SAMPLES_A_POINT * most).max(1);
+    for sample in second.samples.iter().skip(stride / 2).step_by(stride) {
         let Some(cell) = first.lattice.index(*first_from_second * sample.at) else { continue };
-        let is_known = first.state[cell] != State::Unknown;
+        let Surroundings { distance, state, .. } = first.cells[cell];
+        let is_known = state != State::Unknown;
         known += u32::from(is_known);
-        near += u32::from(is_known && f64::from(first.distance[cell]) <= reach.hit);
-        free += u32::from(first.state[cell] == State::Free && sample.free);
+        near += u32::from(is_known && f64::from(distance) <= reach.hit);
+        free += u32::from(state == State::Free && sample.free);
     }
+    let sample_area = second.sample_area * stride as f64;
     let smaller = first.known_area().min(second.known_area());
     // The normals of the second counts are in the frame of the second map.
     let turn = Rotation2::new(first_from_second.theta()).into_inner();
@@ -66,8 +73,8 @@ pub(crate) fn evaluate_rigid(
         hit_m,
         near_miss_m,
         conflict_m,
-        free_m2: f64::from(free) * second.sample_area,
-        overlap: (f64::from(known) * second.sample_area / smaller).min(1.0),
+        free_m2: f64::from(free) * sample_area,
+        overlap: (f64::from(known) * sample_area / smaller).min(1.0),
         same_side_m: mean(|counts| counts.same_side),
         opposite_side_m: mean(|counts| counts.opposite_side),
         cross_m: spread.symmetric_eigenvalues().min().max(0.0),

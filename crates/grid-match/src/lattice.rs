@@ -18,6 +18,19 @@ pub(crate) struct Slope {
     pub(crate) gradient: Vector2<f64>,
 }
 
+/// Where a point lies between four cell centres.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Corners {
+    /// Of the lower row, the left one.
+    lower: usize,
+    /// And of the upper row.
+    upper: usize,
+    /// How far to the right and up of them, cells.
+    right: f64,
+    up: f64,
+    per_metre: f64,
+}
+
 impl Lattice {
     /// The centre of the cell at `index`, row-major.
     pub(crate) fn centre(&self, index: usize) -> Point2<f64> {
@@ -33,27 +46,41 @@ impl Lattice {
         inside.then(|| floor_index(y) * self.width + floor_index(x))
     }
 
-    /// `field` at `point` by bilinear interpolation, unless a corner lies outside.
+    /// The four cell centres around `point`, unless one lies outside.
     #[inline]
-    pub(crate) fn slope(&self, field: &[f32], point: Point2<f64>) -> Option<Slope> {
+    pub(crate) fn corners(&self, point: Point2<f64>) -> Option<Corners> {
         let per_metre = 1.0 / self.resolution;
         let (x, y) = (point.x * per_metre - 0.5, point.y * per_metre - 0.5);
         let inside =
             x >= 0.0 && y >= 0.0 && x < (self.width - 1) as f64 && y < (self.height - 1) as f64;
-        if !inside {
-            return None;
-        }
-        let (column, row) = (floor_index(x), floor_index(y));
-        let (right, up) = (x - column as f64, y - row as f64);
-        let at = row * self.width + column;
-        let [a, b] = [f64::from(field[at]), f64::from(field[at + 1])];
-        let [c, d] = [f64::from(field[at + self.width]), f64::from(field[at + self.width + 1])];
+        inside.then(|| {
+            let (column, row) = (floor_index(x), floor_index(y));
+            let lower = row * self.width + column;
+            let (right, up) = (x - column as f64, y - row as f64);
+            Corners { lower, upper: lower + self.width, right, up, per_metre }
+        })
+    }
+}
+
+impl Corners {
+    /// Of four, the cell that contains the point.
+    #[inline]
+    pub(crate) fn nearest(&self) -> usize {
+        let row = if self.up >= 0.5 { self.upper } else { self.lower };
+        row + usize::from(self.right >= 0.5)
+    }
+
+    /// A value given at the centres, by bilinear interpolation.
+    #[inline]
+    pub(crate) fn slope(&self, value: impl Fn(usize) -> f64) -> Slope {
+        let Self { lower, upper, right, up, per_metre } = *self;
+        let [a, b, c, d] = [lower, lower + 1, upper, upper + 1].map(value);
         let (low, high) = (a + right * (b - a), c + right * (d - c));
         let along_x = (b - a) + up * ((d - c) - (b - a));
-        Some(Slope {
+        Slope {
             value: low + up * (high - low),
             gradient: Vector2::new(along_x, high - low) * per_metre,
-        })
+        }
     }
 }
 

@@ -14,6 +14,7 @@ use crate::confidence::{Beliefs, FLOOR, modes, probabilities};
 use crate::covariance::covariance;
 use crate::evidence::Evidence;
 use crate::lattice::floor_index;
+use crate::parallel::{both, each};
 use crate::params::{Effort, MatchParams};
 use crate::prepare::PreparedMap;
 use crate::refine::polish;
@@ -27,6 +28,8 @@ use crate::work::Work;
 const MOST_HYPOTHESES: usize = 5;
 /// A pose is a rival of the best if it is at least so likely beside it, whatever its score.
 const RIVAL_SHARE: f64 = 0.2;
+/// A pose whose score is so far below the best is not polished: it is listed, no more.
+const HOPELESS: f64 = 8.0;
 /// Share of the work after which all poses are found, but not polished.
 const SEARCHED: f64 = 0.9;
 
@@ -47,9 +50,11 @@ pub fn match_maps(
     params.check()?;
     let [to_target, to_source, to_end] =
         [(0.0, 0.1), (0.1, 0.2), (0.2, 1.0)].map(|(from, to)| Stage::new(progress, from, to));
-    let target = PreparedMap::new(target, &params.thresholds, &to_target)?;
-    let source = PreparedMap::new(source, &params.thresholds, &to_source)?;
-    match_prepared(&target, &source, params, &to_end)
+    let (target, source) = both(
+        || PreparedMap::new(target, &params.thresholds, &to_target),
+        || PreparedMap::new(source, &params.thresholds, &to_source),
+    );
+    match_prepared(&target?, &source?, params, &to_end)
 }
 
 /// [`match_maps`] for maps that were prepared before; the thresholds of `params` are not used.
@@ -111,23 +116,34 @@ fn search(
     found.truncate(MOST_HYPOTHESES + 1);
     let polished = Stage::new(progress, SEARCHED, 1.0);
     let polished = Steps::new(&polished, found.len());
-    for fit in &mut found {
-        let first_from_second = polish(first, second, fit.first_from_second);
-        // What is reported is what was polished, so it is what has to be weighed and bounded.
-        if bounds.is_none_or(|bounds| bounds.contains(&first_from_second)) {
-            *fit = evaluate_in_full(first, second, first_from_second);
-        }
-        polished.step()?;
-    }
+    let best = found.first().map_or(0.0, |fit| fit.score);
+    let contains = |pose: &Se2| bounds.is_none_or(|bounds| bounds.contains(pose));
+    let found = each(
+        &found,
+        || (),
+        |(), fit| {
+            let start_first_from_second = fit.first_from_second;
+            let mut first_from_second = start_first_from_second;
+            if fit.score > best - HOPELESS {
+                first_from_second = polish(first, second, start_first_from_second);
+            }
+            // What is reported is what was polished, so it is what has to be weighed and bounded.
+            if !contains(&first_from_second) {
+                first_from_second = start_first_from_second;
+            }
+            polished.step().map(|()| evaluate_in_full(first, second, first_from_second))
+        },
+    )?;
     let mut found = modes(found, second.centre);
     found.retain(|fit| fit.score > NOT_COMPARABLE);
     let mut probabilities = believed(&found);
     probabilities.truncate(MOST_HYPOTHESES);
-    let hypotheses: Vec<Hypothesis> = found
-        .iter()
-        .zip(probabilities)
-        .map(|(fit, probability)| hypothesis(target, source, fit, probability, swapped))
-        .collect();
+    let believed: Vec<(Fit, f64)> = found.into_iter().zip(probabilities).collect();
+    let hypotheses = each(
+        &believed,
+        || (),
+        |(), (fit, probability)| Ok(hypothesis(target, source, fit, *probability, swapped)),
+    )?;
     let (work, exhausted) = (search.work.spent(), search.work.exhausted());
     let outcome = if exhausted {
         Outcome::Refused(Refusal::SearchCut { work })
@@ -174,7 +190,9 @@ fn order(a: &PreparedMap, b: &PreparedMap) -> Ordering {
         .total_cmp(&b.known_area())
         .then(a.wall_length().total_cmp(&b.wall_length()))
         .then(shape(a).cmp(&shape(b)))
-        .then_with(|| a.state.cmp(&b.state))
+        .then_with(|| {
+            a.cells.iter().map(|cell| cell.state).cmp(b.cells.iter().map(|cell| cell.state))
+        })
 }
 
 fn hypothesis(

@@ -4,10 +4,11 @@ use nalgebra::{Point2, Vector2};
 use ogm_core::{Cancelled, ClassThresholds, Grid, OccupancyGrid, Progress, Se2, l2_distance_sq};
 
 use crate::crop::Crop;
-use crate::lattice::Lattice;
-use crate::sides::{Side, sides};
+use crate::lattice::{Lattice, Slope};
+use crate::sides::sides;
 use crate::spectrum::{Spectrum, hough_spectrum};
 use crate::state::State;
+use crate::surroundings::{Surroundings, surroundings};
 use crate::wall_points::{WallPoint, Walls};
 
 /// Distances are cut off here, metres: twice what the widest refinement still weighs.
@@ -24,12 +25,8 @@ pub struct PreparedMap {
     /// Metres, x and y from the corner of the padded crop along the axes of the grid.
     pub(crate) map_from_local: Se2,
     pub(crate) lattice: Lattice,
-    pub(crate) state: Vec<State>,
-    /// Metres to the nearest occupied cell, cut off.
-    pub(crate) distance: Vec<f32>,
-    /// From which side the nearest wall was seen, near walls.
-    pub(crate) sides: Vec<Side>,
-    /// In an order without pattern, so that any prefix is a fair sample.
+    pub(crate) cells: Vec<Surroundings>,
+    /// In the order of [`LEVELS`](crate::wall_points::LEVELS).
     pub(crate) walls: Vec<WallPoint>,
     /// Metres of wall that a point stands for.
     pub(crate) spacing: f64,
@@ -74,15 +71,19 @@ impl PreparedMap {
         let walls = walls.points(spacing);
         let (samples, sample_area) = area_samples(&state, &lattice);
         let centre = centroid(&samples);
+        let cells = distance
+            .into_iter()
+            .zip(sides)
+            .zip(state)
+            .map(|((distance, side), state)| Surroundings { distance, side, state })
+            .collect();
         let bin = SPACING_M.max(1.5 * lattice.resolution);
         let spectrum = hough_spectrum(&walls, bin);
         progress.report(1.0);
         Ok(Self {
             map_from_local,
             lattice,
-            state,
-            distance,
-            sides,
+            cells,
             walls,
             spacing,
             samples,
@@ -97,6 +98,12 @@ impl PreparedMap {
     #[must_use]
     pub fn resolution(&self) -> f64 {
         self.lattice.resolution
+    }
+
+    /// How far the nearest wall is from `at`, local, and what else is said there.
+    #[inline]
+    pub(crate) fn surroundings(&self, at: Point2<f64>) -> Option<(Slope, Surroundings)> {
+        surroundings(&self.cells, &self.lattice, at)
     }
 
     /// Metres of wall in the map.

@@ -70,17 +70,16 @@ impl Sides {
     /// that is too far to matter at `scale`.
     #[inline]
     fn pull(self, map: &PreparedMap, at: Point2<f64>, facing: Facing, scale: f64) -> Option<Slope> {
-        let slope = map.lattice.slope(&map.distance, at)?;
+        let (slope, there) = map.surroundings(at)?;
         if slope.value > FAR_SCALES * scale {
             return None;
         }
         if self == Self::Any {
             return Some(slope);
         }
-        let cell = map.lattice.index(at)?;
-        let other = map.sides[cell].facing();
+        let other = there.side.facing();
         let is_known = |facing: Facing| facing.normal != Vector2::zeros();
-        let counts = map.state[cell] == State::Free
+        let counts = there.state == State::Free
             || !(is_known(facing) || is_known(other))
             || facing.agreement(other) >= self.least_cosine();
         let across = if self == Self::Facing && is_known(facing) {

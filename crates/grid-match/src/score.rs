@@ -60,6 +60,7 @@ fn share_of(compared_m: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use crate::evidence::{Evidence, Relaxed};
+    use crate::terms::Weights;
     use crate::weights::WEIGHTS;
     use proptest::prelude::{Strategy, prop_assert, proptest};
 
@@ -129,7 +130,9 @@ mod tests {
 
     #[test]
     fn no_weight_is_below_zero() {
-        let parts = [WEIGHTS.score, WEIGHTS.lead, WEIGHTS.rival, WEIGHTS.repeats];
+        let Weights { score, lead, rival, repeats, repeats_odds, .. } = WEIGHTS;
+        let parts = [score, lead, rival, repeats, repeats_odds];
+        assert!(repeats_odds <= 1.0);
         assert!(WEIGHTS.terms.iter().chain(&parts).all(|&weight| weight >= 0.0));
     }
 }

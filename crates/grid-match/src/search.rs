@@ -5,6 +5,7 @@ use ogm_core::{Cancelled, Progress, Se2, Stage, Steps};
 use crate::bounds::Bounds;
 use crate::evaluate::{evaluate, evaluate_rigid};
 use crate::evidence::Evidence;
+use crate::parallel::each;
 use crate::params::Effort;
 use crate::prepare::PreparedMap;
 use crate::refine::{Points, Sides, refine};
@@ -14,13 +15,15 @@ use crate::wall_counts::Reach;
 use crate::work::Work;
 
 /// Scales of the first refinement, metres at a coarse cell of 0.2 m.
-const COARSE_SCALES: [f64; 7] = [0.5, 0.4, 0.3, 0.25, 0.2, 0.15, 0.15];
+const COARSE_SCALES: [f64; 5] = [0.5, 0.35, 0.25, 0.2, 0.15];
 /// Wall points of each map in it.
 const COARSE_POINTS: usize = 400;
 /// Scales of the last refinement, metres, none below a cell.
-const FINE_SCALES: [f64; 8] = [0.2, 0.15, 0.1, 0.1, 0.08, 0.08, 0.08, 0.08];
-/// Wall points of each map in it and in the score.
-const FINE_POINTS: usize = 3000;
+const FINE_SCALES: [f64; 5] = [0.2, 0.14, 0.1, 0.08, 0.08];
+/// Wall points of each map in it, and in the score that ranks what it ends in.
+const FINE_POINTS: usize = 1000;
+/// Wall points of each map in the score that is reported.
+const ALL_POINTS: usize = 3000;
 /// Refined candidates closer than this are one, metres and radians.
 const SAME: (f64, f64) = (0.3, 0.04);
 
@@ -139,19 +142,21 @@ impl<'a> Search<'a> {
         let scales = COARSE_SCALES.map(|scale| scale * ratio);
         let reach = self.reach();
         let points = Points { most: COARSE_POINTS, sides: Sides::Any };
-        let mut refined = Vec::with_capacity(candidates.len());
-        for candidate in candidates {
-            if !self.work.spend_points(2 * COARSE_POINTS * (scales.len() + 1)) {
-                break;
-            }
-            let (first, second) = (self.first, self.second);
-            let start_first_from_second = candidate.first_from_second;
-            let first_from_second = refine(first, second, start_first_from_second, &scales, points);
-            let evidence = evaluate_rigid(first, second, &first_from_second, reach, COARSE_POINTS);
-            let score = evidence.score();
-            refined.push(Candidate { first_from_second, score });
-            done.step()?;
-        }
+        let cost = 2 * COARSE_POINTS * (scales.len() + 1);
+        let allowed = candidates.iter().take_while(|_| self.work.spend_points(cost)).count();
+        let (first, second) = (self.first, self.second);
+        let mut refined = each(
+            &candidates[..allowed],
+            || (),
+            |(), candidate| {
+                let start_first_from_second = candidate.first_from_second;
+                let first_from_second =
+                    refine(first, second, start_first_from_second, &scales, points);
+                let evidence =
+                    evaluate_rigid(first, second, &first_from_second, reach, COARSE_POINTS);
+                done.step().map(|()| Candidate { first_from_second, score: evidence.score() })
+            },
+        )?;
         refined.sort_by(|a, b| b.score.total_cmp(&a.score));
         Ok(distinct(refined, self.second.centre, SAME.0, SAME.1, most))
     }
@@ -167,18 +172,22 @@ impl<'a> Search<'a> {
         let points =
             self.first.walls.len().min(FINE_POINTS) + self.second.walls.len().min(FINE_POINTS);
         let used = Points { most: FINE_POINTS, sides: Sides::NotOpposite };
-        for candidate in promising {
-            if !self.work.spend_points(points * (scales.len() + 1)) {
-                break;
-            }
-            let (first, second) = (self.first, self.second);
-            let start_first_from_second = candidate.first_from_second;
-            let first_from_second = refine(first, second, start_first_from_second, &scales, used);
-            if self.bounds.is_none_or(|bounds| bounds.contains(&first_from_second)) {
-                self.fits.push(evaluate_in_full(first, second, first_from_second));
-            }
-            done.step()?;
-        }
+        let cost = points * (scales.len() + 1);
+        let allowed = promising.iter().take_while(|_| self.work.spend_points(cost)).count();
+        let (first, second, bounds) = (self.first, self.second, self.bounds);
+        let fits = each(
+            &promising[..allowed],
+            || (),
+            |(), candidate| {
+                let start_first_from_second = candidate.first_from_second;
+                let first_from_second =
+                    refine(first, second, start_first_from_second, &scales, used);
+                let is_inside = bounds.is_none_or(|bounds| bounds.contains(&first_from_second));
+                let fit = is_inside.then(|| Fit::of(first, second, first_from_second, FINE_POINTS));
+                done.step().map(|()| fit)
+            },
+        )?;
+        self.fits.extend(fits.into_iter().flatten());
         Ok(())
     }
 
@@ -197,7 +206,14 @@ pub(crate) fn evaluate_in_full(
     second: &PreparedMap,
     first_from_second: Se2,
 ) -> Fit {
-    let reach = Reach::at(first.resolution().max(second.resolution()));
-    let evidence = evaluate(first, second, &first_from_second, reach, FINE_POINTS);
-    Fit { first_from_second, evidence, score: evidence.score() }
+    Fit::of(first, second, first_from_second, ALL_POINTS)
+}
+
+impl Fit {
+    /// On at most `most` wall points of each map.
+    fn of(first: &PreparedMap, second: &PreparedMap, first_from_second: Se2, most: usize) -> Self {
+        let reach = Reach::at(first.resolution().max(second.resolution()));
+        let evidence = evaluate(first, second, &first_from_second, reach, most);
+        Self { first_from_second, evidence, score: evidence.score() }
+    }
 }

@@ -8,7 +8,7 @@ use crate::wall_points::WallPoint;
 /// Angles of a spectrum over half a turn: a quarter of a degree.
 pub(crate) const ANGLES: usize = 720;
 /// Most wall points of a spectrum; more change nothing.
-const MOST_POINTS: usize = 1500;
+const MOST_POINTS: usize = 1000;
 /// Angles of the window whose minimum counts as no direction at all.
 const WINDOW: usize = 91;
 

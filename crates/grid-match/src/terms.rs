@@ -30,6 +30,9 @@ pub struct Weights {
     pub lead: f64,
     /// Taken off per score of a second that fits as well.
     pub rival: f64,
-    /// Taken off where it is known that the building repeats itself.
+    /// Taken off the log-odds where it is known that the building repeats itself, after
+    /// [`repeats_odds`](Self::repeats_odds) of them is kept: there even a good fit is little proof.
     pub repeats: f64,
+    /// Share of the log-odds that is kept there, at most 1.
+    pub repeats_odds: f64,
 }

@@ -7,6 +7,7 @@ use crate::bounds::Bounds;
 use crate::correlate::{Correlator, Surface};
 use crate::correlation_planes::{CorrelationPlanes, FreeShare, Side, turned_box, turned_lattice};
 use crate::lattice::floor_index;
+use crate::parallel::each;
 use crate::prepare::PreparedMap;
 use crate::work::Work;
 
@@ -62,19 +63,22 @@ impl<'a> CoarsePair<'a> {
             room = [room[0].max(columns), room[1].max(rows)];
         }
         let overlap = floor_index(LEAST_OVERLAP_M / self.cell);
-        let mut correlator = Correlator::new(&self.first_planes, size, room, overlap);
+        let correlator = Correlator::new(&self.first_planes, size, room, overlap);
+        let allowed = rotations.iter().take_while(|_| work.spend_transform(correlator.cells()));
+        let rotations = &rotations[..allowed.count()];
         let done = Steps::new(progress, rotations.len());
-        let mut found = Vec::new();
-        for &theta in rotations {
-            if !work.spend_transform(correlator.cells()) {
-                break;
-            }
-            let turned =
-                CorrelationPlanes::turned(self.second, &self.second_free, theta, Side::Second);
-            let surface = correlator.correlate(&turned);
-            found.extend(self.peaks(&surface, &turned, theta, bounds));
-            done.step()?;
-        }
+        let peaks = each(
+            rotations,
+            || correlator.workspace(),
+            |space, &theta| {
+                let (map, free) = (self.second, &self.second_free);
+                let turned = CorrelationPlanes::turned(map, free, theta, Side::Second);
+                let surface = correlator.correlate(&turned, space);
+                let peaks = self.peaks(&surface, &turned, theta, bounds);
+                done.step().map(|()| peaks)
+            },
+        )?;
+        let mut found = peaks.concat();
         found.sort_by(|a, b| b.score.total_cmp(&a.score));
         Ok(distinct(found, self.second.centre, 1.5 * self.cell, APART_RAD, most))
     }

@@ -3,6 +3,7 @@
 use nalgebra::Matrix2;
 use ogm_core::Se2;
 
+use crate::lattice::Slope;
 use crate::prepare::PreparedMap;
 use crate::sides::Facing;
 use crate::state::State;
@@ -63,16 +64,15 @@ impl WallCounts {
     ) {
         for wall in walls {
             let at = *on_from_map * wall.at;
-            let Some(distance) = on.lattice.slope(&on.distance, at).map(|slope| slope.value) else {
+            let Some((Slope { value: distance, .. }, there)) = on.surroundings(at) else {
                 continue;
             };
-            let Some(cell) = on.lattice.index(at) else { continue };
             if distance <= reach.hit {
                 self.hit += length;
                 self.scatter += length * distance * distance;
                 let facing = wall.facing.turned(|normal| *on_from_map * normal);
-                self.add_side(facing, on.sides[cell].facing(), length);
-            } else if on.state[cell] == State::Free {
+                self.add_side(facing, there.side.facing(), length);
+            } else if there.state == State::Free {
                 if distance <= reach.near {
                     self.near_miss += length;
                 } else {

@@ -6,6 +6,10 @@ use crate::lattice::{Lattice, floor_index};
 use crate::sides::{Facing, Side};
 use crate::state::State;
 
+/// Counts of points that are used, least first: so many of them from the first on are a fair sample,
+/// and in the order of the map, for then what is looked up for one is close to that for the next.
+pub(crate) const LEVELS: [usize; 4] = [400, 1000, 3000, 20_000];
+
 /// A point on a wall, local frame.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct WallPoint {
@@ -23,7 +27,8 @@ pub(crate) struct Walls<'a> {
 }
 
 impl Walls<'_> {
-    /// One point for each square of `spacing` that holds wall: the mean of its cells.
+    /// One point for each square of `spacing` that holds wall, the mean of its cells, in the order of
+    /// [`LEVELS`].
     pub(crate) fn points(&self, spacing: f64) -> Vec<WallPoint> {
         let lattice = self.lattice;
         let columns = floor_index(lattice.width as f64 * lattice.resolution / spacing) + 1;
@@ -37,9 +42,15 @@ impl Walls<'_> {
         let mut points: Vec<(u64, WallPoint)> = (0_u64..)
             .zip(sums)
             .filter(|(_, sum)| sum.cells > 0)
-            .map(|(index, sum)| (scatter(index), sum.point()))
+            .map(|(index, sum)| (index, sum.point()))
             .collect();
-        points.sort_unstable_by_key(|&(order, _)| order);
+        points.sort_unstable_by_key(|&(index, _)| scatter(index));
+        let count = points.len();
+        let mut start = 0;
+        for end in LEVELS.into_iter().chain([count]).map(|end| end.min(count)) {
+            points[start..end].sort_unstable_by_key(|&(index, _)| index);
+            start = end;
+        }
         points.into_iter().map(|(_, point)| point).collect()
     }
 

@@ -24,4 +24,5 @@ pub(crate) const WEIGHTS: Weights = Weights {
     lead: 0.706,
     rival: 0.162,
     repeats: 1.375,
+    repeats_odds: 1.000,
 };

@@ -14,19 +14,19 @@ const NO_SECOND: f64 = -9.0;
 
 /// Bias and weights under which the right pose stands out among those found and against none,
 /// and the loss a pair.
-pub(super) fn fit_poses(pairs: &[Pair], weight: impl Fn(&Pair) -> f64) -> (f64, Terms, f64) {
+pub(super) fn fit_poses(pairs: &[Pair]) -> (f64, Terms, f64) {
     let mut parameters = [0.3; TERMS + 1];
     parameters[0] = -3.0;
-    let total: f64 = pairs.iter().map(&weight).sum();
+    let total: f64 = pairs.iter().map(|pair| pair.weight).sum();
     let mut loss = f64::INFINITY;
     for _ in 0..SWEEPS {
         for index in 0..=TERMS {
-            let (slope, curvature) = pose_slope(pairs, &weight, &parameters, index);
+            let (slope, curvature) = pose_slope(pairs, &parameters, index);
             let step = slope / curvature.max(1e-9);
             let least = if index == 0 { f64::NEG_INFINITY } else { 0.0 };
             parameters[index] = (parameters[index] - step.clamp(-1.0, 1.0)).max(least);
         }
-        let next = pose_loss(pairs, &weight, &parameters) / total;
+        let next = pose_loss(pairs, &parameters) / total;
         if (loss - next).abs() < 1e-9 {
             break;
         }
@@ -53,24 +53,19 @@ fn shares(scores: &[f64]) -> (Vec<f64>, f64) {
     (weights.iter().map(|weight| weight / total).collect(), most + total.ln())
 }
 
-fn pose_loss(pairs: &[Pair], weight: impl Fn(&Pair) -> f64, parameters: &[f64; TERMS + 1]) -> f64 {
+fn pose_loss(pairs: &[Pair], parameters: &[f64; TERMS + 1]) -> f64 {
     pairs
         .iter()
         .map(|pair| {
             let scores = pose_scores(pair, parameters);
             let (_, normaliser) = shares(&scores);
-            weight(pair) * (normaliser - pair.right.map_or(0.0, |right| scores[right]))
+            pair.weight * (normaliser - pair.right.map_or(0.0, |right| scores[right]))
         })
         .sum()
 }
 
 /// First and second derivative of the loss by one parameter.
-fn pose_slope(
-    pairs: &[Pair],
-    weight: impl Fn(&Pair) -> f64,
-    parameters: &[f64; TERMS + 1],
-    index: usize,
-) -> (f64, f64) {
+fn pose_slope(pairs: &[Pair], parameters: &[f64; TERMS + 1], index: usize) -> (f64, f64) {
     let ridge = if index == 0 { 0.0 } else { RIDGE };
     let mut slope = ridge * parameters[index];
     let mut curvature = ridge;
@@ -80,21 +75,17 @@ fn pose_slope(
         let mean: f64 = shares.iter().enumerate().map(|(pose, share)| share * value(pose)).sum();
         let square: f64 =
             shares.iter().enumerate().map(|(pose, share)| share * value(pose).powi(2)).sum();
-        slope += weight(pair) * (mean - pair.right.map_or(0.0, value));
-        curvature += weight(pair) * (square - mean * mean);
+        slope += pair.weight * (mean - pair.right.map_or(0.0, value));
+        curvature += pair.weight * (square - mean * mean);
     }
     (slope, curvature)
 }
 
 /// What the best score, its lead and its rival say about whether any pose is right: the weights
 /// of [`Weights`] `any`, `score`, `lead`, `rival`, and the loss a pair.
-pub(super) fn fit_any(
-    scored: &[Scored],
-    pairs: &[Pair],
-    weight: impl Fn(&Pair) -> f64,
-) -> ([f64; 4], f64) {
+pub(super) fn fit_any(scored: &[Scored], pairs: &[Pair]) -> ([f64; 4], f64) {
     let mut parameters = [0.0, 0.5, 0.5, 0.5];
-    let total: f64 = pairs.iter().map(&weight).sum();
+    let total: f64 = pairs.iter().map(|pair| pair.weight).sum();
     let mut loss = f64::INFINITY;
     for _ in 0..SWEEPS {
         for index in 0..4 {
@@ -104,9 +95,9 @@ pub(super) fn fit_any(
                 let features = features(&one.scores);
                 let probability = sigmoid(dot(&features, &parameters));
                 let label = f64::from(u8::from(one.holds_right));
-                slope += weight(pair) * (probability - label) * features[index];
+                slope += pair.weight * (probability - label) * features[index];
                 curvature +=
-                    weight(pair) * probability * (1.0 - probability) * features[index].powi(2);
+                    pair.weight * probability * (1.0 - probability) * features[index].powi(2);
             }
             let step = (slope / curvature.max(1e-9)).clamp(-1.0, 1.0);
             let least = if index == 0 { f64::NEG_INFINITY } else { 0.0 };
@@ -117,7 +108,7 @@ pub(super) fn fit_any(
             .zip(pairs)
             .map(|(one, pair)| {
                 let odds = dot(&features(&one.scores), &parameters);
-                weight(pair) * softplus(if one.holds_right { -odds } else { odds })
+                pair.weight * softplus(if one.holds_right { -odds } else { odds })
             })
             .sum::<f64>()
             / total;
@@ -129,23 +120,27 @@ pub(super) fn fit_any(
     (parameters, loss)
 }
 
-/// What is taken off the log-odds on the floors that repeat themselves, so that as many poses are
-/// right there as is said.
-pub(super) fn fit_repeats(scored: &[Scored], pairs: &[Pair], weights: &Weights) -> f64 {
+/// What is left of the log-odds on floors that repeat themselves, so that as many best poses are
+/// right there as is said: what is taken off, and the share that is kept of them.
+pub(super) fn fit_repeats(scored: &[Scored], pairs: &[Pair], weights: &Weights) -> [f64; 2] {
     let Weights { any, score, lead, rival, .. } = *weights;
-    let mut doubt = 0.0_f64;
+    let mut kept = [0.0, 1.0];
     for _ in 0..SWEEPS {
-        let (mut slope, mut curvature) = (0.0, 1e-9);
-        for (one, pair) in scored.iter().zip(pairs).filter(|(_, pair)| pair.repeats) {
-            let odds = dot(&features(&one.scores), &[any, score, lead, rival]) - doubt;
-            let best_is_right = pair.right.is_some() && one.holds_right;
-            let probability = sigmoid(odds);
-            slope += probability - f64::from(u8::from(best_is_right));
-            curvature += probability * (1.0 - probability);
+        for index in 0..2 {
+            let (mut slope, mut curvature) = (0.0, 1e-9);
+            for (one, _) in scored.iter().zip(pairs).filter(|(_, pair)| pair.repeats) {
+                let odds = dot(&features(&one.scores), &[any, score, lead, rival]);
+                let features = [-1.0, odds];
+                let probability = sigmoid(dot(&features, &kept)) * one.share();
+                let right = f64::from(u8::from(one.best_is_right));
+                slope += (probability - right) * features[index];
+                curvature += probability * (1.0 - probability) * features[index].powi(2);
+            }
+            kept[index] = (kept[index] - (slope / curvature).clamp(-1.0, 1.0)).max(0.0);
         }
-        doubt = (doubt + (slope / curvature).clamp(-1.0, 1.0)).max(0.0);
+        kept[1] = kept[1].min(1.0);
     }
-    doubt
+    kept
 }
 
 fn features(scores: &[f64]) -> [f64; 4] {
@@ -154,7 +149,7 @@ fn features(scores: &[f64]) -> [f64; 4] {
     [1.0, best, (best - second).clamp(0.0, MOST_LEAD), -second.max(0.0)]
 }
 
-fn dot(features: &[f64; 4], parameters: &[f64; 4]) -> f64 {
+fn dot<const N: usize>(features: &[f64; N], parameters: &[f64; N]) -> f64 {
     features.iter().zip(parameters).map(|(feature, parameter)| feature * parameter).sum()
 }
 
@@ -186,7 +181,7 @@ mod tests {
                     terms
                 };
                 let poses = vec![pose(holds_right, 1), pose(false, 2), pose(false, 3)];
-                Pair { repeats: false, poses, right: holds_right.then_some(0) }
+                Pair { repeats: false, weight: 1.0, poses, right: holds_right.then_some(0) }
             })
             .collect()
     }
@@ -194,11 +189,11 @@ mod tests {
     #[test]
     fn what_tells_right_from_wrong_gets_the_weight_and_the_likelihood_grows() {
         let pairs = pairs();
-        let (bias, terms, loss) = fit_poses(&pairs, |_| 1.0);
+        let (bias, terms, loss) = fit_poses(&pairs);
         assert!(terms[0] > 2.0 && terms[0] > 5.0 * terms[1], "{terms:?}");
         assert!(loss < 0.5 * 4.0_f64.ln(), "{loss}: better than drawing lots");
         let scored: Vec<_> = pairs.iter().map(|pair| pair.scored(bias, &terms)).collect();
-        let ([_, score, lead, _], loss) = fit_any(&scored, &pairs, |_| 1.0);
+        let ([_, score, lead, _], loss) = fit_any(&scored, &pairs);
         assert!(score + lead > 0.5 && loss < 0.5 * 2.0_f64.ln(), "{score} {lead} {loss}");
     }
 }

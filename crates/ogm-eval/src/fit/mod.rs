@@ -32,23 +32,18 @@ impl Fit {
     }
 }
 
-/// How much a pair of a floor that repeats itself counts. Most buildings do not; without any the
-/// matcher would not learn that rivals are a bad sign.
-const REPEATING_WEIGHT: f64 = 0.05;
-
 /// Draws labelled pairs, matches them, and fits the weights to which pose is right.
 ///
 /// # Errors
 /// A pair that cannot be drawn or matched.
 pub fn fit(options: &FitOptions) -> anyhow::Result<Fit> {
     let drawn = pairs::draw(options)?;
-    let weight = |pair: &pairs::Pair| if pair.repeats { REPEATING_WEIGHT } else { 1.0 };
-    let (bias, terms, pose_loss) = logit::fit_poses(&drawn, weight);
+    let (bias, terms, pose_loss) = logit::fit_poses(&drawn);
     let scored: Vec<pairs::Scored> = drawn.iter().map(|pair| pair.scored(bias, &terms)).collect();
-    let ([any, score, lead, rival], any_loss) = logit::fit_any(&scored, &drawn, weight);
-    let plain = Weights { bias, terms, any, score, lead, rival, repeats: 0.0 };
-    let repeats = logit::fit_repeats(&scored, &drawn, &plain);
-    let weights = Weights { repeats, ..plain };
+    let ([any, score, lead, rival], any_loss) = logit::fit_any(&scored, &drawn);
+    let plain = Weights { bias, terms, any, score, lead, rival, repeats: 0.0, repeats_odds: 1.0 };
+    let [repeats, repeats_odds] = logit::fit_repeats(&scored, &drawn, &plain);
+    let weights = Weights { repeats, repeats_odds, ..plain };
     let summary = format!(
         "{} pairs, {} with a right pose listed; loss a pair {pose_loss:.4} of the poses, \
          {any_loss:.4} of any of them",

@@ -6,7 +6,7 @@ use super::options::FitOptions;
 
 /// The text of `crates/grid-match/src/weights.rs`.
 pub(super) fn write(weights: &Weights, options: &FitOptions, summary: &str) -> String {
-    let Weights { bias, terms, any, score, lead, rival, repeats } = weights;
+    let Weights { bias, terms, any, score, lead, rival, repeats, repeats_odds } = weights;
     let terms: String = terms
         .iter()
         .zip(TERM_NAMES)
@@ -28,7 +28,8 @@ pub(super) fn write(weights: &Weights, options: &FitOptions, summary: &str) -> S
              score: {score:.3},\n    \
              lead: {lead:.3},\n    \
              rival: {rival:.3},\n    \
-             repeats: {repeats:.3},\n\
+             repeats: {repeats:.3},\n    \
+             repeats_odds: {repeats_odds:.3},\n\
          }};\n"
     )
 }

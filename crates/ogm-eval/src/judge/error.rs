@@ -16,6 +16,11 @@ pub(crate) struct PoseError {
 }
 
 impl PoseError {
+    /// The error as a share of so many times itself.
+    pub(crate) fn over(self, times: f64) -> Self {
+        Self { displacement: self.displacement / times, turn: self.turn / times }
+    }
+
     /// The error at `point`, source frame.
     pub(crate) fn at(
         point: Point2<f64>,

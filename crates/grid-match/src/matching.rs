@@ -30,6 +30,8 @@ const MOST_HYPOTHESES: usize = 5;
 const RIVAL_SHARE: f64 = 0.2;
 /// A pose whose score is so far below the best is not polished: it is listed, no more.
 const HOPELESS: f64 = 8.0;
+/// Share of the work after which both maps are prepared.
+const PREPARED: f64 = 0.2;
 /// Share of the work after which all poses are found, but not polished.
 const SEARCHED: f64 = 0.9;
 
@@ -48,11 +50,12 @@ pub fn match_maps(
     progress: &dyn Progress,
 ) -> Result<MatchReport, MatchError> {
     params.check()?;
-    let [to_target, to_source, to_end] =
-        [(0.0, 0.1), (0.1, 0.2), (0.2, 1.0)].map(|(from, to)| Stage::new(progress, from, to));
+    // Each says only what it has done itself, for nobody knows which is ahead.
+    let to_one = Stage::new(progress, 0.0, 0.5 * PREPARED);
+    let to_end = Stage::new(progress, PREPARED, 1.0);
     let (target, source) = both(
-        || PreparedMap::new(target, &params.thresholds, &to_target),
-        || PreparedMap::new(source, &params.thresholds, &to_source),
+        || PreparedMap::new(target, &params.thresholds, &to_one),
+        || PreparedMap::new(source, &params.thresholds, &to_one),
     );
     match_prepared(&target?, &source?, params, &to_end)
 }

@@ -8,4 +8,6 @@ mod progress;
 mod refusals;
 mod simulated;
 mod styles;
+#[cfg(feature = "rayon")]
+mod threads;
 mod world;

@@ -36,12 +36,13 @@ fn searched(accept: f64, progress: &dyn Progress) -> Result<String, MatchError> 
 }
 
 #[test]
-fn shares_rise_to_one_and_change_nothing() {
+fn shares_come_to_one_and_change_nothing() {
     for accept in [0.9, 1.0] {
         let all = listener(f64::INFINITY);
         assert_eq!(searched(accept, &all), searched(accept, &()));
         let heard = all.heard.into_inner().unwrap();
-        assert!(heard.is_sorted() && heard[0] >= 0.0 && heard.len() > 50, "{heard:?}");
+        assert!(heard.iter().all(|share| (0.0..=1.0).contains(share)), "{heard:?}");
+        assert!(heard.len() > 50 && (cfg!(feature = "rayon") || heard.is_sorted()), "{heard:?}");
         assert_eq!(heard.last(), Some(&1.0));
     }
 }

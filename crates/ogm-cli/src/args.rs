@@ -90,6 +90,12 @@ pub(crate) struct SearchArgs {
     /// robot positions in the frame of that map
     #[arg(long, value_name = "MAP.yaml=TAGS.csv")]
     pub(crate) tags: Vec<String>,
+    /// Longest range of the tag reader, metres; readings beyond it are left out
+    #[arg(long, value_name = "M", default_value_t = 3.0, value_parser = metres)]
+    pub(crate) tag_range: f64,
+    /// Standard deviation of a range that the tag reader gives, metres
+    #[arg(long, value_name = "M", default_value_t = 0.05, value_parser = metres)]
+    pub(crate) tag_sigma: f64,
     /// A transform that is already believed: maps points of B into A (match and carpin only)
     #[arg(long = "prior", id = "prior", value_name = "X,Y,DEG", allow_hyphen_values = true)]
     #[arg(requires = "prior_sigma", value_parser = transform)]

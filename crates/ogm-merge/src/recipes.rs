@@ -118,7 +118,7 @@ fn sure_tags(
     seen: &mut TagEvidence,
 ) -> Result<[TagPair; 3], Stop> {
     seen.common_tags = common_tags(target.tags, source.tags)?;
-    Ok(select_tags(&seen.common_tags, &params.selection).into_result()?)
+    Ok(select_tags(&seen.common_tags, &params.selection)?.into_result()?)
 }
 
 /// The straight walls of a map and the direction of its building (section 4.1).

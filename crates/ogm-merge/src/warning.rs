@@ -29,6 +29,16 @@ pub enum Warning {
     /// The refinement could not improve on its start.
     #[error("the refinement could not improve on its start, which was kept")]
     NotImproved,
+    /// Readings that no such reader gives were left out.
+    #[error(
+        "{dropped} of {readings} tag readings are none that the reader gives (below 0, beyond its range, not finite), and were left out"
+    )]
+    ReadingsDropped {
+        /// How many, in both maps.
+        dropped: usize,
+        /// Of how many.
+        readings: usize,
+    },
     /// The tags that there are gave no answer, so the maps were matched without them.
     #[error("the maps were matched without their tags: {0}")]
     WithoutTags(Refusal),

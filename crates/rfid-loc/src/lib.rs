@@ -36,6 +36,7 @@
 
 mod error;
 mod filter;
+mod fit;
 #[cfg(test)]
 mod fixture;
 mod localise;
@@ -53,14 +54,16 @@ pub use localise::localise;
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
 pub use params::{
-    CertaintyWindow, FilterParams, PositionRule, RotationCentre, RotationParams, SelectionParams,
-    TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation,
+    CertaintyWindow, FilterParams, Likelihood, PositionRule, RotationCentre, RotationParams,
+    SelectionParams, TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation,
 };
 pub use quadrant::{AMBIGUOUS_ABOVE, Quadrant, QuadrantConfidence, quadrant};
 pub use rotation::{RotationRule, TagRotation, tag_rotation};
-pub use selection::{TagPair, common_tags, select_tags};
+pub use selection::{TagPair, common_tags, select_tags, select_two_tags, sure_tags};
 pub use tag_only::tag_only_transform;
-pub use transform::{anchor_on_all_tags, anchor_on_best_tag, least_squares_transform};
+pub use transform::{
+    anchor_on_all_tags, anchor_on_best_tag, least_squares_transform, tag_residual,
+};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

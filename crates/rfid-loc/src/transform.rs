@@ -50,6 +50,17 @@ pub fn least_squares_transform(tags: &[TagPair], params: &RotationParams) -> Out
     }
 }
 
+/// Root mean square distance of the tags of `pairs` from each other under a transform, metres; NaN
+/// without pairs.
+#[must_use]
+pub fn tag_residual(pairs: &[TagPair], target_from_source: &Se2) -> f64 {
+    let squares = pairs
+        .iter()
+        .map(positions)
+        .map(|(target, source)| (*target_from_source * source - target).norm_squared());
+    (squares.sum::<f64>() / pairs.len() as f64).sqrt()
+}
+
 /// The motion that turns by `theta` and lays `source` onto `target`.
 fn laid_onto(theta: f64, target: Point2<f64>, source: Point2<f64>) -> Se2 {
     Se2::about(source, theta, target - source)
@@ -57,7 +68,7 @@ fn laid_onto(theta: f64, target: Point2<f64>, source: Point2<f64>) -> Se2 {
 
 #[cfg(test)]
 mod tests {
-    use super::{anchor_on_all_tags, anchor_on_best_tag, least_squares_transform};
+    use super::{anchor_on_all_tags, anchor_on_best_tag, least_squares_transform, tag_residual};
     use crate::fixture::{moved_pairs, pairs_at};
     use crate::{RotationParams, TagError};
     use nalgebra::Point2;
@@ -77,6 +88,16 @@ mod tests {
         assert!((moved - Point2::new(235.378702, 280.707740)).norm() < 1e-6, "{moved}");
         let best = target_from_source * tags[0].source().position;
         assert!((best - tags[0].target().position).norm() < 1e-12);
+    }
+
+    #[test]
+    fn the_residual_is_the_root_mean_square_of_what_is_left() {
+        let tags = pairs_at([([0.3, 0.0], [0.0, 0.0]), ([2.0, 0.4], [2.0, 0.0])]);
+        let residual = tag_residual(&tags, &Se2::identity());
+        assert!((residual - (0.125_f64).sqrt()).abs() < 1e-12, "{residual}");
+        let moved = moved_pairs(Se2::new(5.0, -3.0, 2.0), [[0.0, 1.0], [4.0, 2.0]]);
+        assert!(tag_residual(&moved, &Se2::new(5.0, -3.0, 2.0)) < 1e-12);
+        assert!(tag_residual(&[], &Se2::identity()).is_nan());
     }
 
     #[test]

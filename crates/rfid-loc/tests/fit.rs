@@ -29,7 +29,7 @@ fn estimates(
             log.push(TagReading { tag_id, robot_position, range });
         }
     }
-    localise(&log, params, &()).unwrap()
+    localise(&log, params, &()).expect("usable parameters")
 }
 
 fn error(tag: &TagEstimate) -> f64 {
@@ -37,7 +37,7 @@ fn error(tag: &TagEstimate) -> f64 {
 }
 
 fn normal(sigma: f64) -> Normal<f64> {
-    Normal::new(0.0, sigma).unwrap()
+    Normal::new(0.0, sigma).expect("a finite sigma")
 }
 
 /// Tags that are believed above `certainty` though they are off by more than 5 cm.

@@ -103,17 +103,19 @@ impl Default for IcpParams {
 }
 
 impl IcpParams {
-    /// The same with every length in cells of the map, whatever its resolution: margin and first
-    /// gate 25, last gate 5, reciprocity 1.5, stop 0.002, furthest move 50.
+    /// ICP as the paper describes it (section 4.3): every source point of the common section with
+    /// its nearest target point however far, squared distances between points, and an end that is
+    /// taken wherever it lies.
     #[must_use]
     pub fn paper() -> Self {
         Self {
-            section_margin: Length::cells(25.0),
-            initial_gate: Length::cells(25.0),
-            final_gate: Length::cells(5.0),
-            reciprocity: Length::cells(1.5),
-            stop_translation: Length::cells(0.002),
-            max_translation: Length::cells(50.0),
+            initial_gate: Length::metres(f64::INFINITY),
+            final_gate: Length::metres(f64::INFINITY),
+            pairing: Pairing::OneWay,
+            metric: Metric::PointToPoint,
+            max_translation: Length::metres(f64::INFINITY),
+            max_rotation: std::f64::consts::PI,
+            min_eigenvalue_ratio: 0.0,
             ..Self::default()
         }
     }

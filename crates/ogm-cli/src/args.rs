@@ -194,6 +194,10 @@ pub(crate) enum MethodArg {
     Rfid2,
     /// As rfid2, then refined on the walls
     Rfid3,
+    /// As rfid3, from two tags
+    TwoTags,
+    /// As rfid1b, then refined on the walls
+    TagsIcp,
     /// By a random walk from --prior, or else from the maps' middles on each other
     Carpin,
     /// By wall segments that look alike, then the Radon transform
@@ -209,6 +213,8 @@ impl From<MethodArg> for Method {
             MethodArg::Rfid1b => Self::Tags(TagMethod::Rfid1b),
             MethodArg::Rfid2 => Self::Tags(TagMethod::Rfid2),
             MethodArg::Rfid3 => Self::Tags(TagMethod::Rfid3),
+            MethodArg::TwoTags => Self::Tags(TagMethod::TwoTags),
+            MethodArg::TagsIcp => Self::Tags(TagMethod::TagsIcp),
             MethodArg::Carpin => Self::Carpin,
             MethodArg::Radon => Self::Radon,
         }

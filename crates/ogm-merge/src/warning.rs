@@ -18,6 +18,9 @@ pub enum Warning {
     /// Tags and walls differ by more than 20 degrees.
     #[error("tags and walls differ by more than 20 degrees")]
     QuadrantResidual,
+    /// The walls' direction was of no use, so the refinement started from the tags alone.
+    #[error("the walls gave no direction that holds, so the tags alone were refined")]
+    StartedFromTags,
     /// The common walls leave one direction open.
     #[error(
         "the common walls leave one direction open, as in a corridor; along it the tags decide"

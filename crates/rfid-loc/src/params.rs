@@ -176,6 +176,18 @@ pub struct TagOnlyParams {
     pub levers: RotationParams,
 }
 
+impl TagOnlyParams {
+    /// Rotation and translation as section 5.2 prints them, in the map frames.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            rotation: TagOnlyRotation::AsPrinted,
+            translation: TagOnlyTranslation::AsPrinted,
+            ..Self::default()
+        }
+    }
+}
+
 /// Which direction the rotation from tags alone compares.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum TagOnlyRotation {

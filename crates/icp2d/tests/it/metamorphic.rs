@@ -117,8 +117,8 @@ fn gates_change_how_many_points_pair() {
     let source = set([floor(), extra].concat());
     let run = |first: Length, last: Length| {
         let params = IcpParams {
-            initial_gate: first,
-            final_gate: last,
+            initial_correspondence_distance: first,
+            max_correspondence_distance: last,
             pairing: Pairing::OneWay,
             ..in_cells()
         };
@@ -128,8 +128,11 @@ fn gates_change_how_many_points_pair() {
     let wide = run(Length::cells(25.0), Length::cells(25.0));
     let none = run(Length::metres(f64::INFINITY), Length::metres(f64::INFINITY));
     assert!(distance(narrow.target_from_source, Se2::identity()) < EXACT);
-    assert!(narrow.pairs < wide.pairs && wide.pairs <= none.pairs);
-    assert_eq!(none.pairs, source.points().len());
+    assert!(
+        narrow.correspondences < wide.correspondences
+            && wide.correspondences <= none.correspondences
+    );
+    assert_eq!(none.correspondences, source.points().len());
 }
 
 #[test]

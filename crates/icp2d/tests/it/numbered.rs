@@ -100,7 +100,8 @@ fn right_faces() -> Vec<WallPoint> {
 }
 
 fn shift_from_truth(target: Vec<WallPoint>, pairing: Pairing) -> f64 {
-    let params = IcpParams { pairing, ..in_cells() };
+    // The printed numbers are those of point to point.
+    let params = IcpParams { pairing, metric: Metric::PointToPoint, ..in_cells() };
     let start = Se2::identity();
     let outcome = align(&set(target), &set(left_faces()), start, &params).unwrap();
     found(outcome).target_from_source.translation().norm()

@@ -78,12 +78,18 @@ fn numbers_that_cannot_be_meant_are_errors() {
 
     let paper = in_cells();
     let wrong = [
-        ("gate_factor", IcpParams { gate_factor: 1.0, ..paper }),
-        ("final_gate", IcpParams { final_gate: Length::metres(f64::NAN), ..paper }),
-        ("final_gate", IcpParams { initial_gate: Length::metres(f64::INFINITY), ..paper }),
-        ("min_pairs", IcpParams { min_pairs: 1, ..paper }),
+        ("distance_factor", IcpParams { distance_factor: 1.0, ..paper }),
+        (
+            "max_correspondence_distance",
+            IcpParams { max_correspondence_distance: Length::metres(f64::NAN), ..paper },
+        ),
+        (
+            "max_correspondence_distance",
+            IcpParams { initial_correspondence_distance: Length::metres(f64::INFINITY), ..paper },
+        ),
+        ("min_correspondences", IcpParams { min_correspondences: 1, ..paper }),
         ("pairing", IcpParams { pairing: Pairing::Trimmed(0.0), ..paper }),
-        ("stop_rotation", IcpParams { stop_rotation: -1.0, ..paper }),
+        ("rotation_epsilon", IcpParams { rotation_epsilon: -1.0, ..paper }),
     ];
     for (expected, params) in wrong {
         match align(&floor, &floor, Se2::identity(), &params) {

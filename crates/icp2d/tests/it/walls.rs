@@ -8,10 +8,10 @@ use ogm_core::{Length, Outcome, Se2};
 pub(crate) fn in_cells() -> IcpParams {
     IcpParams {
         section_margin: Length::cells(25.0),
-        initial_gate: Length::cells(25.0),
-        final_gate: Length::cells(5.0),
+        initial_correspondence_distance: Length::cells(25.0),
+        max_correspondence_distance: Length::cells(5.0),
         reciprocity: Length::cells(1.5),
-        stop_translation: Length::cells(0.002),
+        translation_epsilon: Length::cells(0.002),
         max_translation: Length::cells(50.0),
         ..IcpParams::default()
     }

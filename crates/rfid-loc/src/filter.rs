@@ -3,7 +3,7 @@
 use nalgebra::{Matrix2, Point2, Vector2};
 use ogm_core::{CellIndex, Grid, GridFrame, ParameterError, Se2, TagEstimate, require};
 
-use crate::fit::{Fit, OUTLIER_SIGMA};
+use crate::fit::{Bias, Fit, OUTLIER_SIGMA};
 use crate::params::RANGE_SLACK_SIGMA;
 use crate::window::{Peak, most_probable};
 use crate::{FilterParams, Likelihood, PositionRule, TagError};
@@ -148,6 +148,17 @@ impl TagFilter {
     /// probability that its ranges have no bias.
     #[must_use]
     pub fn estimate(&self, tag_id: u32) -> Option<TagEstimate> {
+        let (estimate, bias) = self.fitted(tag_id)?;
+        Some(match bias {
+            Some(bias) => {
+                TagEstimate { certainty: estimate.certainty * bias.unbiased(), ..estimate }
+            }
+            None => estimate,
+        })
+    }
+
+    /// The estimate before a bias is thought of, and what is to be thought where the fit is checked.
+    pub(crate) fn fitted(&self, tag_id: u32) -> Option<(TagEstimate, Option<Bias>)> {
         if self.readings.is_empty() {
             return None;
         }
@@ -159,26 +170,23 @@ impl TagFilter {
             PositionRule::Mode => self.frame.cell_centre(mode),
         };
         let fit = Fit::of(&self.readings, position, &self.params);
-        let mut certainty = peak.mass;
-        if self.params.check_fit {
-            if fit.scale_sq > 1.0 {
-                posterior = self.posterior_widened_by(to_f32(fit.scale_sq));
-                peak = self.peak(&posterior);
-            }
-            certainty = peak.mass * fit.unbiased;
+        if self.params.check_fit && fit.scale_sq > 1.0 {
+            posterior = self.posterior_widened_by(to_f32(fit.scale_sq));
+            peak = self.peak(&posterior);
         }
-        Some(TagEstimate {
+        let estimate = TagEstimate {
             tag_id,
             position,
             mode: self.frame.cell_centre(mode),
             covariance: self.covariance(&posterior, position),
-            certainty: certainty.min(1.0),
+            certainty: peak.mass.min(1.0),
             misfit: fit.misfit,
             readings: self.readings.len(),
             dropped: 0,
             touches_border: self.is_near_border(mode) || self.is_near_border(peak.middle),
             second_peak_ratio: peak.second_ratio,
-        })
+        };
+        Some((estimate, self.params.check_fit.then_some(fit.bias)))
     }
 
     fn peak(&self, posterior: &Grid<f64>) -> Peak {

@@ -6,12 +6,17 @@ use nalgebra::Point2;
 use ogm_core::{Progress, Steps, TagEstimate, TagReading};
 
 use crate::filter::check_reading;
+use crate::fit::Bias;
 use crate::{FilterParams, TagError, TagFilter};
 
 /// Where the tags of a log are, in the frame of its robot positions, sorted by tag.
 ///
 /// Each tag is searched around where the robot first read it ([`TagFilter::around`]), and its
 /// readings multiply over gaps in which it was out of range (Tsardoulias et al., section 3).
+///
+/// A bias is one of the reader, so all tags are asked for it together: what one tag cannot tell
+/// from a place further away, several can. A certainty is lowered by what they say, or by what its
+/// own readings say if that is more.
 ///
 /// Readings that no such reader gives (not finite, below zero, beyond its range) are left out and
 /// counted in [`TagEstimate::dropped`]; a tag without any other has no estimate.
@@ -28,7 +33,7 @@ pub fn localise(
         by_tag.entry(reading.tag_id).or_default().push(reading);
     }
     let done = Steps::new(progress, readings.len());
-    let mut estimates = Vec::with_capacity(by_tag.len());
+    let mut fitted = Vec::with_capacity(by_tag.len());
     for (tag_id, readings) in by_tag {
         let (usable, bad): (Vec<&TagReading>, Vec<_>) = readings.into_iter().partition(|reading| {
             check_reading(reading.robot_position, reading.range, params).is_ok()
@@ -39,11 +44,16 @@ pub fn localise(
             filter.update(reading.robot_position, reading.range)?;
             done.step()?;
         }
-        let estimate = filter.estimate(tag_id);
-        estimates.extend(estimate.map(|tag| TagEstimate { dropped: bad.len(), ..tag }));
+        let tag = filter.fitted(tag_id);
+        fitted.extend(tag.map(|(tag, bias)| (TagEstimate { dropped: bad.len(), ..tag }, bias)));
     }
     progress.report(1.0);
-    Ok(estimates)
+    let reader = Bias::pooled(fitted.iter().filter_map(|(_, bias)| bias.as_ref())).unbiased();
+    let believed = fitted.into_iter().map(|(tag, bias)| match bias {
+        Some(bias) => TagEstimate { certainty: tag.certainty * reader.min(bias.support()), ..tag },
+        None => tag,
+    });
+    Ok(believed.collect())
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ogm_core::Se2;
-use ogm_merge::{FusionRule, Method, TagMethod};
+use ogm_merge::{AlignParams, FusionRule, Method, TagMethod, WalkObjective};
 
 use crate::pose::{Sigma, transform};
 
@@ -110,6 +110,9 @@ pub(crate) struct SearchArgs {
     /// beyond doubt is believed (match only)
     #[arg(long)]
     pub(crate) repeats: bool,
+    /// What the random walk makes least (carpin only)
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) objective: ObjectiveArg,
     /// Seed of everything random
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
@@ -202,6 +205,24 @@ pub(crate) enum MethodArg {
     Carpin,
     /// By wall segments that look alike, then the Radon transform
     Radon,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum ObjectiveArg {
+    /// The distance of walls where both maps know
+    #[default]
+    Overlap,
+    /// The picture distance of the paper, which draws maps together that overlap in part
+    Picture,
+}
+
+impl From<ObjectiveArg> for WalkObjective {
+    fn from(objective: ObjectiveArg) -> Self {
+        match objective {
+            ObjectiveArg::Overlap => AlignParams::default().walk_objective,
+            ObjectiveArg::Picture => Self::Picture,
+        }
+    }
 }
 
 impl From<MethodArg> for Method {

@@ -55,6 +55,7 @@ pub(crate) fn search(
             repeats: args.repeats,
             ..MatchParams::default()
         },
+        walk_objective: args.objective.into(),
         ..AlignParams::default()
     };
     let report = align_pair(args.method.into(), &robot(0), &robot(1), &params, progress)?;

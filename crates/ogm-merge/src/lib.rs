@@ -59,6 +59,7 @@ mod verify;
 mod walk;
 mod warning;
 
+pub use carpin_walk::Objective as WalkObjective;
 pub use error::MergeError;
 pub use evidence::{TagEvidence, WallAgreement, WallDirection};
 pub use grid_match::{MatchParams, Prior};

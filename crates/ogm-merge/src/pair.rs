@@ -146,8 +146,7 @@ impl Pair<'_> {
     /// A walk always ends somewhere: refused unless the maps make that likelier right than wrong.
     fn by_walk(&self, progress: &dyn Progress) -> Result<PairReport, MergeError> {
         let [target, source] = [self.target.map, self.source.map];
-        let (prior, seed) = (self.params.prior.as_ref(), self.params.seed);
-        let walks = walk_coarse_to_fine(target, source, prior, seed, &searching(progress))?;
+        let walks = walk_coarse_to_fine(target, source, self.params, &searching(progress))?;
         let outcome = walks.last().map_or(
             Outcome::Refused(Refusal::TooLittleStructure { have: 0, need: 1 }),
             |last| match &last.outcome {

@@ -1,5 +1,6 @@
 //! The knobs of every stage, gathered.
 
+use carpin_walk::Objective;
 use grid_match::{MatchParams, Prior};
 use icp2d::{IcpParams, StartParams};
 use ogm_core::ClassThresholds;
@@ -8,7 +9,7 @@ use rfid_loc::{RotationParams, SelectionParams, TagOnlyParams};
 
 /// How [`align_pair`](crate::align_pair) looks for a transform; each field is that of the crate
 /// which does the step.
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 pub struct AlignParams {
     /// Seed of everything random; it replaces that of every stage.
     pub seed: u64,
@@ -22,6 +23,23 @@ pub struct AlignParams {
     pub matching: MatchParams,
     /// Segments and the Radon transform.
     pub radon: RadonParams,
+    /// What the random walk makes least: the distance of the walls where both maps know, as long
+    /// as they overlap by a quarter. The paper's picture distance draws maps together that overlap
+    /// in part.
+    pub walk_objective: Objective,
+}
+
+impl Default for AlignParams {
+    fn default() -> Self {
+        Self {
+            seed: 0,
+            prior: None,
+            rfid: RfidParams::default(),
+            matching: MatchParams::default(),
+            radon: RadonParams::default(),
+            walk_objective: Objective::Overlap { min_share: 0.25 },
+        }
+    }
 }
 
 /// Parameters of methods #1, #1b, #2 and #3; each field is that of the crate which does the step.

@@ -33,7 +33,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     match align(&target, &source, start, &IcpParams::default())? {
         Outcome::Found(found) => {
             let error = found.target_from_source * source_from_target;
-            println!("{:?}, {} pairs", found.termination, found.pairs);
+            println!("{:?}, {} pairs", found.termination, found.correspondences);
             println!("off by {:.4} m, {:.4} rad", error.translation().norm(), error.theta());
         }
         Outcome::Refused(refusal) => println!("refused: {refusal}"),

@@ -1,7 +1,7 @@
 //! Rigid 2D alignment of wall points by ICP that pairs only walls seen from the same side.
 //!
 //! [`align`] refines a start that is good to a few decimetres; [`search_start`] looks further around
-//! one that is not.
+//! one that is not. [`align_points`] takes plain points, [`align_to`] a target whose index is kept.
 //! A wall has two faces, and two robots may have seen one each; pairing them would shift a map by
 //! the thickness of its walls. So every [`WallPoint`] carries the side on which it has free space,
 //! and points pair only if these sides agree and each is nearest to the other.
@@ -27,7 +27,7 @@
 //! ```
 //!
 //! The step is that of Tsardoulias, Thallas, Petrou: *Metric map merging using RFID tags &
-//! topological information*, section 4.3, which leaves gate, pairing and stop open; see
+//! topological information*, section 4.3, which leaves reach, pairing and stop open; see
 //! [`IcpParams`] for those chosen here. Nearest neighbours come from the bounding volume hierarchy
 //! of `parry2d`, or from buckets where the points are as dense as cells on walls.
 
@@ -46,17 +46,19 @@ mod sided;
 mod start;
 mod step;
 mod structure;
+mod target;
 mod tracking;
 mod wall_points;
 
-pub use align::align;
+pub use align::{align, align_points, align_to};
 pub use convention::translate_then_rotate;
 pub use error::IcpError;
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
-pub use outcome::{Alignment, Section, Termination};
-pub use params::{IcpParams, Metric, Pairing};
+pub use outcome::{Alignment, Correspondence, Section, Termination};
+pub use params::{IcpParams, Kernel, Metric, Pairing};
 pub use start::{StartParams, search_start};
+pub use target::{Target, correspondences};
 pub use wall_points::{WallPoint, WallPoints};
 
 #[cfg(doctest)]

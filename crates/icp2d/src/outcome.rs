@@ -1,6 +1,6 @@
 //! What an alignment found and how it ended.
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::{Matrix3, Point2, Vector2};
 use ogm_core::Se2;
 
 /// Where a source map lies in a target map, and how surely.
@@ -13,12 +13,18 @@ pub struct Alignment {
     pub termination: Termination,
     /// Iterations done.
     pub iterations: usize,
-    /// Pairs at the final gate under `target_from_source`.
-    pub pairs: usize,
-    /// Root mean square distance of these pairs, metres.
+    /// Covariance of (x, y, θ) of `target_from_source` in target axes, m², m·rad, rad², as if the
+    /// residuals of the correspondences were independent of each other; those of neighbouring
+    /// cells are not. `None` where walls leave a direction open.
+    pub covariance: Option<Matrix3<f64>>,
+    /// Correspondences at the final distance under `target_from_source`.
+    pub correspondences: usize,
+    /// Their share of the source points in the section.
+    pub inlier_ratio: f64,
+    /// Root mean square distance of their points, metres.
     pub rmse: f64,
-    /// Pairs at the final gate under the start.
-    pub initial_pairs: usize,
+    /// Correspondences at the final distance under the start.
+    pub initial_correspondences: usize,
     /// Root mean square distance of those, metres; `None` if they were too few to say.
     pub initial_rmse: Option<f64>,
     /// Unit vector in the target frame along which the walls of the pairs say nothing, as in a
@@ -28,11 +34,22 @@ pub struct Alignment {
     pub section: Section,
 }
 
+/// Points that are taken for the same place of a wall.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Correspondence {
+    /// The source point, by its place in its set.
+    pub source: usize,
+    /// The target point, by its place in its set.
+    pub target: usize,
+    /// Metres between them under the pose.
+    pub distance: f64,
+}
+
 /// How an alignment ended.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
 pub enum Termination {
-    /// The last iteration at the final gate moved less than the stop.
+    /// The last iteration at the final distance moved less than the stop.
     Converged,
     /// Still moving after the last allowed iteration; the last estimate is returned.
     IterationLimit,

@@ -3,9 +3,9 @@
 use nalgebra::{distance, distance_squared};
 use ogm_core::Se2;
 
-use crate::Pairing;
 use crate::cloud::Cloud;
 use crate::tracking::Tracker;
+use crate::{IcpParams, Pairing};
 
 /// A source point and a target point by index.
 #[derive(Debug, Clone, Copy)]
@@ -35,16 +35,15 @@ impl<'a> Matcher<'a> {
     pub(crate) fn new(
         target: &'a Cloud,
         source: &'a Cloud,
-        pairing: Pairing,
-        min_side_cosine: f64,
-        reciprocity: f64,
+        params: &IcpParams,
+        spacing: f64,
     ) -> Self {
         Self {
             target,
             source,
-            pairing,
-            min_side_cosine,
-            reciprocity,
+            pairing: params.pairing,
+            min_side_cosine: params.min_side_cosine,
+            reciprocity: params.reciprocity.resolve(spacing),
             forth: Tracker::new(source.positions.len(), target.spacing),
             back: Tracker::new(target.positions.len(), source.spacing),
             pairs: Vec::with_capacity(source.positions.len()),
@@ -52,9 +51,9 @@ impl<'a> Matcher<'a> {
         }
     }
 
-    /// Fills [`pairs`](Self::pairs) with those at most `gate` metres apart.
-    pub(crate) fn pair(&mut self, target_from_source: &Se2, gate: f64) {
-        self.pair_one_way(target_from_source, gate);
+    /// Fills [`pairs`](Self::pairs) with those at most `reach` metres apart.
+    pub(crate) fn pair(&mut self, target_from_source: &Se2, reach: f64) {
+        self.pair_one_way(target_from_source, reach);
         if let Pairing::Normals | Pairing::NormalsReciprocal = self.pairing {
             self.reject_other_sides(target_from_source);
         }
@@ -72,11 +71,11 @@ impl<'a> Matcher<'a> {
         (sum / self.pairs.len() as f64).sqrt()
     }
 
-    fn pair_one_way(&mut self, target_from_source: &Se2, gate: f64) {
+    fn pair_one_way(&mut self, target_from_source: &Se2, reach: f64) {
         self.pairs.clear();
         for (source, (index, &point)) in (0..).zip(self.source.positions.iter().enumerate()) {
             let query = *target_from_source * point;
-            let found = self.forth.nearest(index, query, self.target, gate);
+            let found = self.forth.nearest(index, query, self.target, reach);
             self.pairs.extend(found.map(|(target, distance_sq)| Pair {
                 source,
                 target,

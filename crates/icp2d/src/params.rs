@@ -22,13 +22,36 @@ pub enum Pairing {
 /// What an iteration minimises.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Metric {
-    /// Squared distance between the points of a pair; closed form. Where both maps have their
-    /// cells on parallel lattices, it can come to rest a cell or two off.
-    #[default]
-    PointToPoint,
     /// Squared distance to the line through the wall around the target point; where there is no
     /// such line, to the point. Walls slide freely along each other, so no lattice holds it.
+    #[default]
     PointToLine,
+    /// Squared distance between the points of a pair; closed form. Where both maps have their
+    /// cells on parallel lattices, it can come to rest a cell or two off.
+    PointToPoint,
+}
+
+/// How much less a large residual counts than its square.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Kernel {
+    /// Not at all; the largest distance of a correspondence bounds what an outlier can do.
+    #[default]
+    None,
+    /// Linear beyond this residual.
+    Huber(Length),
+    /// Logarithmic beyond about this residual, so that outliers hardly pull.
+    Cauchy(Length),
+}
+
+impl Kernel {
+    /// The weight of a residual, in (0, 1], where a cell has this many metres.
+    pub(crate) fn weight(&self, residual: f64, spacing: f64) -> f64 {
+        match self {
+            Self::None => 1.0,
+            Self::Huber(width) => (width.resolve(spacing) / residual.abs()).min(1.0),
+            Self::Cauchy(width) => 1.0 / (1.0 + (residual / width.resolve(spacing)).powi(2)),
+        }
+    }
 }
 
 /// How to align; see [`align`](crate::align).
@@ -39,17 +62,17 @@ pub enum Metric {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IcpParams {
     /// How far the common section reaches beyond the intersection of the bounding boxes: 0.5 m,
-    /// the first gate, so that no pair is lost at its border.
+    /// the first distance of correspondences, so that no pair is lost at its border.
     pub section_margin: Length,
-    /// Largest distance of a pair at first: 0.5 m, the error that a start from tags has.
-    /// `f64::INFINITY` for no gate, then in `final_gate` too.
-    pub initial_gate: Length,
-    /// The gate shrinks by this factor an iteration, in (0, 1): 0.8, from the first gate to the
-    /// last in eight. Nearer to 1 forgives a worse start.
-    pub gate_factor: f64,
-    /// Largest distance of a pair at last: 0.1 m, below the thickness of a wall, and 2.5 cells,
+    /// Largest distance of a correspondence at first: 0.5 m, the error that a start from tags has.
+    /// `f64::INFINITY` for none, then in `max_correspondence_distance` too.
+    pub initial_correspondence_distance: Length,
+    /// That distance shrinks by this factor an iteration, in (0, 1): 0.8, from the first
+    /// to the last in eight. Nearer to 1 forgives a worse start.
+    pub distance_factor: f64,
+    /// Largest distance of a correspondence at last: 0.1 m, below the thickness of a wall, and 2.5 cells,
     /// above the noise of a coarse map.
-    pub final_gate: Length,
+    pub max_correspondence_distance: Length,
     /// Which neighbours are pairs.
     pub pairing: Pairing,
     /// Free sides agree if the cosine between them exceeds this: 0.3, about 70 degrees, since the
@@ -60,15 +83,17 @@ pub struct IcpParams {
     pub reciprocity: Length,
     /// What an iteration minimises.
     pub metric: Metric,
+    /// How much less a large residual counts.
+    pub kernel: Kernel,
     /// Iterations at most: 80; maps without drift take 13 to 46 on average.
     pub max_iterations: usize,
     /// Converged when an iteration turns by less than this, radians: 1e-6, a millimetre in a kilometre.
-    pub stop_rotation: f64,
-    /// and moves the centre of the pairs by less than this: 0.04 mm, or a tenth of a cell.
-    pub stop_translation: Length,
-    /// Pairs needed: 10; fewer say nothing about two maps.
-    pub min_pairs: usize,
-    /// Furthest that the result may move from the start: 1 m, twice the first gate.
+    pub rotation_epsilon: f64,
+    /// and moves the centre of the pairs by less than this: a hundredth of a cell.
+    pub translation_epsilon: Length,
+    /// Correspondences needed: 10; fewer say nothing about two maps.
+    pub min_correspondences: usize,
+    /// Furthest that the result may move from the start: 1 m, twice the first distance.
     pub max_translation: Length,
     /// Furthest that the result may turn from the start, radians: 10 degrees.
     pub max_rotation: f64,
@@ -84,17 +109,18 @@ impl Default for IcpParams {
     fn default() -> Self {
         Self {
             section_margin: Length::metres(25.0 * PIXEL),
-            initial_gate: Length::metres(25.0 * PIXEL),
-            gate_factor: 0.8,
-            final_gate: Length::metres(5.0 * PIXEL).at_least_cells(2.5),
+            initial_correspondence_distance: Length::metres(25.0 * PIXEL),
+            distance_factor: 0.8,
+            max_correspondence_distance: Length::metres(5.0 * PIXEL).at_least_cells(2.5),
             pairing: Pairing::default(),
             min_side_cosine: 0.3,
             reciprocity: Length::metres(1.5 * PIXEL).at_least_cells(1.5),
             metric: Metric::default(),
+            kernel: Kernel::default(),
             max_iterations: 80,
-            stop_rotation: 1e-6,
-            stop_translation: Length::metres(0.002 * PIXEL).at_least_cells(0.1),
-            min_pairs: 10,
+            rotation_epsilon: 1e-6,
+            translation_epsilon: Length::cells(0.01),
+            min_correspondences: 10,
             max_translation: Length::metres(50.0 * PIXEL),
             max_rotation: 10_f64.to_radians(),
             min_eigenvalue_ratio: 0.02,
@@ -103,17 +129,19 @@ impl Default for IcpParams {
 }
 
 impl IcpParams {
-    /// The same with every length in cells of the map, whatever its resolution: margin and first
-    /// gate 25, last gate 5, reciprocity 1.5, stop 0.002, furthest move 50.
+    /// ICP as the paper describes it (section 4.3): every source point of the common section with
+    /// its nearest target point however far, squared distances between points, and an end that is
+    /// taken wherever it lies.
     #[must_use]
     pub fn paper() -> Self {
         Self {
-            section_margin: Length::cells(25.0),
-            initial_gate: Length::cells(25.0),
-            final_gate: Length::cells(5.0),
-            reciprocity: Length::cells(1.5),
-            stop_translation: Length::cells(0.002),
-            max_translation: Length::cells(50.0),
+            initial_correspondence_distance: Length::metres(f64::INFINITY),
+            max_correspondence_distance: Length::metres(f64::INFINITY),
+            pairing: Pairing::OneWay,
+            metric: Metric::PointToPoint,
+            max_translation: Length::metres(f64::INFINITY),
+            max_rotation: std::f64::consts::PI,
+            min_eigenvalue_ratio: 0.0,
             ..Self::default()
         }
     }
@@ -121,10 +149,10 @@ impl IcpParams {
     pub(crate) fn check(&self) -> Result<(), ParameterError> {
         let lengths = [
             ("section_margin", self.section_margin),
-            ("initial_gate", self.initial_gate),
-            ("final_gate", self.final_gate),
+            ("initial_correspondence_distance", self.initial_correspondence_distance),
+            ("max_correspondence_distance", self.max_correspondence_distance),
             ("reciprocity", self.reciprocity),
-            ("stop_translation", self.stop_translation),
+            ("translation_epsilon", self.translation_epsilon),
             ("max_translation", self.max_translation),
         ];
         for (name, length) in lengths {
@@ -132,23 +160,31 @@ impl IcpParams {
                 require(value >= 0.0, name, "a length of at least 0", value)?;
             }
         }
-        let factor = self.gate_factor;
-        require(0.0 < factor && factor < 1.0, "gate_factor", "in (0, 1)", factor)?;
-        let (first, last) = (self.initial_gate.resolve(1.0), self.final_gate.resolve(1.0));
+        let factor = self.distance_factor;
+        require(0.0 < factor && factor < 1.0, "distance_factor", "in (0, 1)", factor)?;
+        let (first, last) = (
+            self.initial_correspondence_distance.resolve(1.0),
+            self.max_correspondence_distance.resolve(1.0),
+        );
         require(
             first.is_finite() || last.is_infinite(),
-            "final_gate",
-            "infinite where the initial gate is, which never shrinks",
+            "max_correspondence_distance",
+            "infinite where the initial distance is, which never shrinks",
             last,
         )?;
+        if let Kernel::Huber(width) | Kernel::Cauchy(width) = self.kernel {
+            let width = width.resolve(1.0);
+            require(width.is_finite() && width > 0.0, "kernel", "a width above 0", width)?;
+        }
         let cosine = self.min_side_cosine;
         require((-1.0..=1.0).contains(&cosine), "min_side_cosine", "in [-1, 1]", cosine)?;
-        let angles = [("stop_rotation", self.stop_rotation), ("max_rotation", self.max_rotation)];
+        let angles =
+            [("rotation_epsilon", self.rotation_epsilon), ("max_rotation", self.max_rotation)];
         for (name, value) in angles {
             require(value >= 0.0, name, "an angle of at least 0", value)?;
         }
-        let pairs = self.min_pairs;
-        require(pairs >= 2, "min_pairs", "at least 2", pairs as f64)?;
+        let pairs = self.min_correspondences;
+        require(pairs >= 2, "min_correspondences", "at least 2", pairs as f64)?;
         let ratio = self.min_eigenvalue_ratio;
         require((0.0..=1.0).contains(&ratio), "min_eigenvalue_ratio", "in [0, 1]", ratio)?;
         if let Pairing::Trimmed(share) = self.pairing {

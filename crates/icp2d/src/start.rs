@@ -56,7 +56,7 @@ const HALVINGS: usize = 3;
 /// and turns around `init_target_from_source`.
 ///
 /// The given start itself comes back unless another basin is clearly better. [`align`] from here
-/// converges where the given start was further off than its gate.
+/// converges where the given start was further off than its reach.
 ///
 /// Refuses with [`Refusal::TooLittleStructure`] if either set is empty, and with
 /// [`Refusal::TooFewPairs`] if no source point comes near the target.

@@ -21,17 +21,50 @@ const WINDOW: f64 = 2.9;
 /// A wall is at most this wide for its length, as variances in the window: three cells of five.
 const MAX_WALL_RATIO: f64 = 0.5;
 
-/// The shape around each point by total least squares in a window of 5 × 5 spacings.
-pub(crate) fn shapes(cloud: &Cloud, spacing: f64) -> Vec<Shape> {
-    let shape = |&point: &Point2<f64>| {
-        let (mut count, mut sum, mut squares) = (0_u32, Vector2::zeros(), Matrix2::zeros());
-        cloud.nearest.for_each_within(point, WINDOW * spacing, |near| {
+/// Windows grow by this while they hold too few points: a scan thins out with the range, and a
+/// spacing may be stated too small.
+const GROWTH: f64 = 2.0;
+/// Times that a window grows.
+const GROWTHS: usize = 4;
+/// Points, itself among them, that give a shape.
+const LEAST: u32 = 3;
+
+/// The points around a point: how many, and their moments about it.
+#[derive(Default)]
+struct Around {
+    count: u32,
+    sum: Vector2<f64>,
+    squares: Matrix2<f64>,
+}
+
+impl Around {
+    fn of(point: Point2<f64>, cloud: &Cloud, radius: f64) -> Self {
+        let mut around = Self::default();
+        cloud.nearest.for_each_within(point, radius, |near| {
             let offset = near - point;
-            count += 1;
-            sum += offset;
-            squares += offset * offset.transpose();
+            around.count += 1;
+            around.sum += offset;
+            around.squares += offset * offset.transpose();
         });
-        if count < 3 {
+        around
+    }
+}
+
+/// The shape around each point by total least squares in a window of 5 × 5 spacings, or in a
+/// larger one where that holds too few.
+pub(crate) fn shapes(cloud: &Cloud) -> Vec<Shape> {
+    let shape = |&point: &Point2<f64>| {
+        let mut radius = WINDOW * cloud.spacing;
+        let mut around = Around::of(point, cloud, radius);
+        for _ in 0..GROWTHS {
+            if around.count >= LEAST {
+                break;
+            }
+            radius *= GROWTH;
+            around = Around::of(point, cloud, radius);
+        }
+        let Around { count, sum, squares } = around;
+        if count < LEAST {
             return Shape::Alone;
         }
         let count = f64::from(count);

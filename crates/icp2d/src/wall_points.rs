@@ -4,6 +4,8 @@ use nalgebra::{Point2, Vector2};
 use ogm_core::{CellIndex, ClassThresholds, OccupancyGrid};
 
 use crate::IcpError;
+use crate::hierarchy::Hierarchy;
+use crate::nearest::Nearest;
 
 /// A point on a wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -57,6 +59,20 @@ impl WallPoints {
         Ok(Self { points, spacing })
     }
 
+    /// Plain points without free sides, about as far apart as the median distance to the nearest
+    /// other one.
+    ///
+    /// # Errors
+    /// A point that is not finite or beyond 10⁹ m.
+    pub fn from_positions(positions: &[Point2<f64>]) -> Result<Self, IcpError> {
+        let as_wall = |&position: &Point2<f64>| WallPoint { position, free_side: None };
+        let points: Vec<WallPoint> = positions.iter().map(as_wall).collect();
+        // Checked before anything is measured.
+        let mut walls = Self::from_points(points, 1.0)?;
+        walls.spacing = median_spacing(positions).unwrap_or(1.0);
+        Ok(walls)
+    }
+
     /// The occupied cells of a map, row-major; the spacing is its resolution.
     ///
     /// The free side of a cell is the direction of the sum of the offsets to the free cells in the
@@ -91,6 +107,26 @@ impl WallPoints {
     pub fn spacing(&self) -> f64 {
         self.spacing
     }
+}
+
+/// Median distance to the nearest other point, metres; `None` without two different points.
+///
+/// From every so many points, at most a thousand: a median asks for no more.
+fn median_spacing(positions: &[Point2<f64>]) -> Option<f64> {
+    let index = Hierarchy::new(positions);
+    let every = positions.len().div_ceil(1000).max(1);
+    let mut distances: Vec<f64> = positions
+        .iter()
+        .step_by(every)
+        .map(|&point| index.nearest(point, Nearest::none_within(f64::INFINITY)).others_sq.sqrt())
+        .filter(|&distance| distance.is_finite() && distance > 0.0)
+        .collect();
+    let middle = distances.len() / 2;
+    if distances.is_empty() {
+        return None;
+    }
+    let (_, &mut median, _) = distances.select_nth_unstable_by(middle, f64::total_cmp);
+    Some(median)
 }
 
 /// In cells; zero or at least 1 long.
@@ -146,6 +182,7 @@ mod tests {
     fn a_cell_seen_from_both_sides_or_none_has_no_free_side() {
         assert_eq!(free_sides(Se2::identity(), "..#.."), [None]);
         assert_eq!(free_sides(Se2::identity(), "??#??"), [None]);
+        assert_eq!(free_sides(Se2::identity(), ".??#"), [Some(-Vector2::x())]);
         // Free cells four away are outside of the window.
         assert_eq!(free_sides(Se2::identity(), ".???#"), [None]);
     }

@@ -2,18 +2,16 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use ogm_core::{
-    ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Outcome, Refusal, Segment,
-    wrap_period,
+    CellIndex, ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Outcome, Refusal,
+    Segment, wrap_period,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::breakdown::break_at_gaps;
-use crate::detect::detect;
-use crate::join::{JoinLimits, join};
 use crate::line::Line;
+use crate::lines::lines_of;
 use crate::params::{InCells, Params};
 use crate::reliability::reliability;
 use crate::strip::Cell;
@@ -24,6 +22,8 @@ use crate::strip::Cell;
 pub struct Extraction {
     /// Walls that are long and reliable enough; at least one.
     pub segments: Vec<Segment>,
+    /// The sampled cells that support each of them.
+    pub members: Vec<Vec<CellIndex>>,
     /// Lines before the last filter.
     pub stages: Stages,
     /// What it took.
@@ -70,37 +70,36 @@ pub fn extract_segments(map: &OccupancyGrid, params: &Params) -> Outcome<Extract
     let mut rng = ChaCha8Rng::seed_from_u64(params.seed);
     let sample = sample(occupied_cells, params.max_points, &mut rng);
     let sampled = sample.len();
-    let detection = detect(sample, limits.line_distance, params, &mut rng);
-
-    let broken: Vec<Line> = detection
-        .lines
-        .iter()
-        .flat_map(|line| break_at_gaps(line, limits.max_gap, params.break_rule, params.direction))
-        .collect();
-    let broken_ends = ends(&broken, map.frame());
-    let join_limits = JoinLimits { angle: params.join_angle, distance: limits.join_distance };
-    let joined = join(broken, join_limits, params.direction);
-    let segments: Vec<Segment> = joined
+    let found = lines_of(sample, &limits, params, &mut rng);
+    let (members, segments): (Vec<_>, Vec<_>) = found
+        .joined
         .iter()
         .filter(|line| line.length() > limits.min_length)
-        .map(|line| to_segment(line, map, params.reliability_band))
-        .filter(|segment| segment.reliability >= params.min_reliability)
-        .collect();
+        .map(|line| {
+            (line.cells.iter().map(|&cell| index(cell)).collect(), to_segment(line, map, params))
+        })
+        .filter(|(_, segment): &(_, Segment)| segment.reliability >= params.min_reliability)
+        .unzip();
     if segments.is_empty() {
-        return Outcome::Refused(Refusal::NoLines { candidates: joined.len() });
+        return Outcome::Refused(Refusal::NoLines { candidates: found.joined.len() });
     }
+    let ends = |lines: &[Line]| {
+        let ends = lines.iter().map(|line| line.limits.map(|cell| centre(cell, map.frame())));
+        ends.collect()
+    };
     Outcome::Found(Extraction {
         segments,
+        members,
         statistics: Statistics {
             occupied,
             sampled,
-            trials: detection.trials,
-            fallback_lines: detection.fallback_lines,
+            trials: found.detection.trials,
+            fallback_lines: found.detection.fallback_lines,
         },
         stages: Stages {
-            detected: ends(&detection.lines, map.frame()),
-            broken: broken_ends,
-            joined: ends(&joined, map.frame()),
+            detected: ends(&found.detection.lines),
+            broken: ends(&found.broken),
+            joined: ends(&found.joined),
         },
     })
 }
@@ -135,21 +134,28 @@ fn sample(mut cells: Vec<Cell>, size: usize, rng: &mut ChaCha8Rng) -> Vec<Cell> 
     cells
 }
 
-fn to_segment(line: &Line, map: &OccupancyGrid, band: u16) -> Segment {
-    let [start, end] = line.limits.map(|cell| centre(cell, map.frame()));
+fn to_segment(line: &Line, map: &OccupancyGrid, params: &Params) -> Segment {
+    let ends = line.ends(params.direction);
+    let half = Vector2::repeat(0.5);
+    let [start, end] = ends.map(|end| map.frame().point_from_cells(end + half));
     let yaw = map.frame().map_from_grid().theta();
     Segment {
         start,
         end,
         direction: wrap_period(line.direction + yaw, PI),
-        reliability: reliability(map.cells(), line.limits, band),
+        reliability: reliability(map.cells(), ends.map(nearest), params.reliability_band),
         support: line.cells.len(),
     }
 }
 
-fn ends(lines: &[Line], frame: &GridFrame) -> Vec<[Point2<f64>; 2]> {
-    let ends = lines.iter().map(|line| line.limits.map(|cell| centre(cell, frame)));
-    ends.collect()
+#[expect(clippy::cast_possible_truncation, reason = "between cells, which fit")]
+fn nearest(place: Point2<f64>) -> Cell {
+    [place.x.round() as i32, place.y.round() as i32]
+}
+
+#[expect(clippy::cast_sign_loss, reason = "cells of a grid count from 0")]
+fn index([column, row]: Cell) -> CellIndex {
+    CellIndex { column: column as usize, row: row as usize }
 }
 
 fn centre([column, row]: Cell, frame: &GridFrame) -> Point2<f64> {

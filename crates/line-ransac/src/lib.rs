@@ -21,6 +21,8 @@
 //! # Ok::<(), ogm_core::GridError>(())
 //! ```
 //!
+//! [`extract_lines`] does the same with a list of points and says which of them are on each line.
+//!
 //! Inside, points are cells; a threshold of [`Params`] is a [`Length`](ogm_core::Length) in metres
 //! that does not fall below a few cells of the map at hand. The same map, parameters and seed give
 //! the same bytes.
@@ -31,7 +33,9 @@ mod extract;
 mod farthest;
 mod join;
 mod line;
+mod lines;
 mod params;
+mod points;
 mod pool;
 mod reliability;
 mod strip;
@@ -40,6 +44,7 @@ pub use extract::{Extraction, Stages, Statistics, extract_segments};
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
 pub use params::{BreakRule, DirectionRule, Params};
+pub use points::{PointLine, extract_lines};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use nalgebra::{Point2, Vector2};
 use ogm_core::wrap_period;
 
 use crate::DirectionRule;
@@ -27,6 +28,28 @@ impl Line {
             DirectionRule::Endpoints => direction_between(limits),
         };
         Some(Self { cells, limits, direction: wrap_period(direction, PI) })
+    }
+
+    /// Where the wall begins and ends, cells: its limits, or, by total least squares, the outermost
+    /// of its cells laid square onto its axis. Where the limits sit on the ends of perpendicular
+    /// walls, they lie on a diagonal that leaves the wall.
+    pub(crate) fn ends(&self, rule: DirectionRule) -> [Point2<f64>; 2] {
+        let as_point = |[x, y]: Cell| Point2::new(f64::from(x), f64::from(y));
+        let limits = self.limits.map(as_point);
+        if rule == DirectionRule::Endpoints {
+            return limits;
+        }
+        let count = self.cells.len() as f64;
+        let sum =
+            self.cells.iter().fold(Vector2::zeros(), |sum, &cell| sum + as_point(cell).coords);
+        let centre = Point2::from(sum / count);
+        let axis = Vector2::new(self.direction.cos(), self.direction.sin());
+        let along = self.cells.iter().map(|&cell| axis.dot(&(as_point(cell) - centre)));
+        let (least, most) =
+            along.fold((0.0_f64, 0.0_f64), |(least, most), at| (least.min(at), most.max(at)));
+        let ends = [centre + least * axis, centre + most * axis];
+        let is_forward = axis.dot(&(limits[1] - limits[0])) >= 0.0;
+        if is_forward { ends } else { [ends[1], ends[0]] }
     }
 
     /// Distance between the limits, cells.
@@ -70,6 +93,19 @@ mod tests {
         let axis = Line::new(block, DirectionRule::TotalLeastSquares).unwrap();
         assert!((ends.direction.to_degrees().abs() - 1.718_358).abs() < 1e-6);
         assert!(axis.direction.abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_ends_of_an_axis_do_not_follow_the_stubs_of_other_walls() {
+        let mut wall: Vec<_> = (0..200).map(|x| [x, 0]).collect();
+        wall.extend([[0, -2], [0, -1], [199, 1], [199, 2]]);
+        let rule = DirectionRule::TotalLeastSquares;
+        let line = Line::new(wall, rule).unwrap();
+        let [start, end] = line.ends(rule);
+        assert!(start.y.abs() < 0.4 && end.y.abs() < 0.4, "{start} {end}");
+        assert!((start.x - 0.0).abs() < 0.1 && (end.x - 199.0).abs() < 0.1, "{start} {end}");
+        let [start, end] = line.ends(DirectionRule::Endpoints);
+        assert!((end.y - start.y).abs() > 3.0, "the limits lie on the diagonal");
     }
 
     #[test]

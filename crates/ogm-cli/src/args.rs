@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use ogm_core::Se2;
-use ogm_merge::{FusionRule, Method, TagMethod};
+use ogm_merge::{AlignParams, FusionRule, Method, TagMethod, WalkObjective};
 
 use crate::pose::{Sigma, transform};
 
@@ -90,6 +90,12 @@ pub(crate) struct SearchArgs {
     /// robot positions in the frame of that map
     #[arg(long, value_name = "MAP.yaml=TAGS.csv")]
     pub(crate) tags: Vec<String>,
+    /// Longest range of the tag reader, metres; readings beyond it are left out
+    #[arg(long, value_name = "M", default_value_t = 3.0, value_parser = metres)]
+    pub(crate) tag_range: f64,
+    /// Standard deviation of a range that the tag reader gives, metres
+    #[arg(long, value_name = "M", default_value_t = 0.05, value_parser = metres)]
+    pub(crate) tag_sigma: f64,
     /// A transform that is already believed: maps points of B into A (match and carpin only)
     #[arg(long = "prior", id = "prior", value_name = "X,Y,DEG", allow_hyphen_values = true)]
     #[arg(requires = "prior_sigma", value_parser = transform)]
@@ -104,6 +110,9 @@ pub(crate) struct SearchArgs {
     /// beyond doubt is believed (match only)
     #[arg(long)]
     pub(crate) repeats: bool,
+    /// What the random walk makes least (carpin only)
+    #[arg(long, value_enum, default_value_t)]
+    pub(crate) objective: ObjectiveArg,
     /// Seed of everything random
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(crate) seed: u64,
@@ -188,10 +197,32 @@ pub(crate) enum MethodArg {
     Rfid2,
     /// As rfid2, then refined on the walls
     Rfid3,
+    /// As rfid3, from two tags
+    TwoTags,
+    /// As rfid1b, then refined on the walls
+    TagsIcp,
     /// By a random walk from --prior, or else from the maps' middles on each other
     Carpin,
     /// By wall segments that look alike, then the Radon transform
     Radon,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub(crate) enum ObjectiveArg {
+    /// The distance of walls where both maps know
+    #[default]
+    Overlap,
+    /// The picture distance of the paper, which draws maps together that overlap in part
+    Picture,
+}
+
+impl From<ObjectiveArg> for WalkObjective {
+    fn from(objective: ObjectiveArg) -> Self {
+        match objective {
+            ObjectiveArg::Overlap => AlignParams::default().walk_objective,
+            ObjectiveArg::Picture => Self::Picture,
+        }
+    }
 }
 
 impl From<MethodArg> for Method {
@@ -203,6 +234,8 @@ impl From<MethodArg> for Method {
             MethodArg::Rfid1b => Self::Tags(TagMethod::Rfid1b),
             MethodArg::Rfid2 => Self::Tags(TagMethod::Rfid2),
             MethodArg::Rfid3 => Self::Tags(TagMethod::Rfid3),
+            MethodArg::TwoTags => Self::Tags(TagMethod::TwoTags),
+            MethodArg::TagsIcp => Self::Tags(TagMethod::TagsIcp),
             MethodArg::Carpin => Self::Carpin,
             MethodArg::Radon => Self::Radon,
         }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use ogm_core::{Progress, TagEstimate};
-use ogm_merge::{AlignParams, MatchParams, Method, Prior, RobotMap, align_pair};
+use ogm_merge::{AlignParams, FilterParams, MatchParams, Method, Prior, RobotMap, align_pair};
 
 use crate::answer::{PairAnswer, SCHEMA};
 use crate::args::SearchArgs;
@@ -35,7 +35,10 @@ pub(crate) fn search(
     progress: &dyn Progress,
 ) -> anyhow::Result<PairAnswer> {
     let start = Instant::now();
-    let tags_of = |log: &Option<PathBuf>| log.as_deref().map_or(Ok(Vec::new()), localised);
+    let reader = FilterParams::for_reader(args.tag_range, args.tag_sigma);
+    let tags_of = |log: &Option<PathBuf>| {
+        log.as_deref().map_or(Ok(Vec::new()), |log| localised(log, &reader))
+    };
     let tags: Vec<Vec<TagEstimate>> = logs.iter().map(tags_of).collect::<Result<_, _>>()?;
     let robot = |map: usize| RobotMap { map: inputs[map].map(), tags: &tags[map] };
     let params = AlignParams {
@@ -52,6 +55,7 @@ pub(crate) fn search(
             repeats: args.repeats,
             ..MatchParams::default()
         },
+        walk_objective: args.objective.into(),
         ..AlignParams::default()
     };
     let report = align_pair(args.method.into(), &robot(0), &robot(1), &params, progress)?;

@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::{Context, bail};
 use ogm_core::TagEstimate;
 use ogm_io::read_tags;
 use ogm_merge::{FilterParams, localise};
@@ -47,8 +47,14 @@ fn is_same(a: &Path, b: &Path) -> bool {
     a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
-/// Where the tags of a log are.
-pub(crate) fn localised(log: &Path) -> anyhow::Result<Vec<TagEstimate>> {
+/// Where the tags of a log are, by a reader of these parameters.
+pub(crate) fn localised(log: &Path, reader: &FilterParams) -> anyhow::Result<Vec<TagEstimate>> {
+    let name = || log.display().to_string();
     let readings = read_tags(log)?;
-    localise(&readings, &FilterParams::default(), &()).with_context(|| log.display().to_string())
+    let tags = localise(&readings, reader, &()).with_context(name)?;
+    if tags.is_empty() && !readings.is_empty() {
+        let range = reader.max_range;
+        bail!("{}: no range is one that a reader of {range} m gives; see --tag-range", name());
+    }
+    Ok(tags)
 }

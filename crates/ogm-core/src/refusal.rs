@@ -59,6 +59,13 @@ pub enum Refusal {
         /// Distance needed, metres.
         need_m: f64,
     },
+    /// Tags that the maps place differently to each other, or to the answer.
+    TagsDisagree {
+        /// Root mean square distance of tags from each other that should lie together, metres.
+        residual_m: f64,
+        /// Largest that is accepted, metres.
+        limit_m: f64,
+    },
     /// No straight wall survived the extraction.
     NoLines {
         /// Walls before the last filter.
@@ -191,7 +198,8 @@ impl Refusal {
             | Self::TooFewPairs { .. }
             | Self::NoAlikeSegments { .. }
             | Self::NothingCompared => "no overlap",
-            Self::Contradiction { .. }
+            Self::TagsDisagree { .. }
+            | Self::Contradiction { .. }
             | Self::ConflictingWalls { .. }
             | Self::ConflictingCells { .. }
             | Self::EntropyElsewhere { .. } => "contradiction",
@@ -236,6 +244,9 @@ impl Refusal {
             }
             Self::TagsCoincide { spread_m, need_m } => format!(
                 "they spread {spread_m:.3} m, at least {need_m:.3} m needed; use tags further apart"
+            ),
+            Self::TagsDisagree { residual_m, limit_m } => format!(
+                "the tags of the maps stay {residual_m:.2} m apart, at most {limit_m:.2} m accepted: one was moved, or these are two buildings"
             ),
             Self::NoLines { candidates } => {
                 format!("{candidates} candidate walls, none long and reliable enough")

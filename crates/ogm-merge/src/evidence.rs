@@ -13,6 +13,11 @@ use crate::Warning;
 pub struct TagEvidence {
     /// Tags localised in both maps, the surest first, whether or not they are sure enough.
     pub common_tags: Vec<TagPair>,
+    /// Root mean square distance that the best rigid motion leaves between tags that both maps know
+    /// surely, metres, per degree of freedom: it does not grow with their number.
+    pub tag_fit_residual: Option<f64>,
+    /// The same under the answer, which was not fitted to them.
+    pub tag_residual: Option<f64>,
     /// Rotation by the tags alone.
     pub tag_rotation: Option<TagRotation>,
     /// Walls and direction of the target map, then of the source map.
@@ -21,11 +26,14 @@ pub struct TagEvidence {
     pub quadrant: Option<Quadrant>,
     /// What tags and walls give, which is the answer of #2.
     pub unrefined_target_from_source: Option<Se2>,
+    /// Whether the refinement started from the tags alone, without the direction of the walls.
+    pub started_from_tags: bool,
     /// Where the refinement started, after looking around that.
     pub start_target_from_source: Option<Se2>,
     /// The refinement.
     pub refinement: Option<Alignment>,
-    /// How far the walls of the two maps agree under the refined transform.
+    /// How far the walls of the two maps agree under the refined transform; of a method that does
+    /// not refine, where they agree best around its answer.
     pub wall_agreement: Option<WallAgreement>,
 }
 
@@ -60,6 +68,7 @@ impl TagEvidence {
                 self.quadrant.is_some_and(|q| q.confidence == QuadrantConfidence::Warning),
                 Warning::QuadrantResidual,
             ),
+            (self.started_from_tags && self.tag_rotation.is_some(), Warning::StartedFromTags),
             (self.refinement.is_some_and(|r| r.unobservable.is_some()), Warning::Unobservable),
             (ended == Some(Termination::IterationLimit), Warning::NotSettled),
             (matches!(ended, Some(Termination::WorseFit { .. })), Warning::NotImproved),

@@ -35,6 +35,7 @@
 //!
 //! The last argument of what may take long is an [`ogm_core::Progress`], `&()` for none.
 
+mod checks;
 mod error;
 mod evidence;
 #[cfg(feature = "serde")]
@@ -45,6 +46,7 @@ mod pair;
 mod params;
 mod pose;
 mod recipes;
+mod refine;
 mod report;
 mod resolution;
 mod robot_map;
@@ -52,10 +54,12 @@ mod schedule;
 mod segments;
 mod stop;
 mod tagged;
+mod task;
 mod verify;
 mod walk;
 mod warning;
 
+pub use carpin_walk::Objective as WalkObjective;
 pub use error::MergeError;
 pub use evidence::{TagEvidence, WallAgreement, WallDirection};
 pub use grid_match::{MatchParams, Prior};

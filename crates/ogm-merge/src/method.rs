@@ -18,7 +18,8 @@ pub enum Method {
 }
 
 /// A method of Tsardoulias, Thallas, Petrou, *Metric Map Merging using RFID Tags & Topological
-/// Information*; each needs three tags that both robots localised surely.
+/// Information*; each needs three tags that both robots localised surely, [`TwoTags`](Self::TwoTags)
+/// two.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum TagMethod {
     /// #1: rotation and translation from three tags.
@@ -29,17 +30,23 @@ pub enum TagMethod {
     Rfid2,
     /// #3: #2, refined by ICP.
     Rfid3,
+    /// #3 from two tags: their direction says which quarter turn (the paper's future work).
+    TwoTags,
+    /// #1b, refined by ICP, without looking for straight walls (the paper's conclusions).
+    TagsIcp,
 }
 
 impl Method {
     /// Every method.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 10] = [
         Self::Auto,
         Self::Match,
         Self::Tags(TagMethod::Rfid1),
         Self::Tags(TagMethod::Rfid1b),
         Self::Tags(TagMethod::Rfid2),
         Self::Tags(TagMethod::Rfid3),
+        Self::Tags(TagMethod::TwoTags),
+        Self::Tags(TagMethod::TagsIcp),
         Self::Carpin,
         Self::Radon,
     ];
@@ -54,6 +61,8 @@ impl Method {
             Self::Tags(TagMethod::Rfid1b) => "rfid1b",
             Self::Tags(TagMethod::Rfid2) => "rfid2",
             Self::Tags(TagMethod::Rfid3) => "rfid3",
+            Self::Tags(TagMethod::TwoTags) => "two-tags",
+            Self::Tags(TagMethod::TagsIcp) => "tags-icp",
             Self::Carpin => "carpin",
             Self::Radon => "radon",
         }

@@ -44,6 +44,7 @@ pub fn align_pair(
     if pair.are_copies() {
         report.warnings.push(Warning::Copies);
     }
+    report.warnings.extend(pair.readings_dropped());
     progress.report(1.0);
     Ok(report)
 }
@@ -73,7 +74,7 @@ impl Pair<'_> {
             return self.by_maps(progress);
         }
         let common = common_tags(self.target.tags, self.source.tags)?;
-        let lacking = select_tags(&common, &self.params.rfid.selection).refusal().cloned();
+        let lacking = select_tags(&common, &self.params.rfid.selection)?.refusal().cloned();
         let (refusal, tags) = match lacking {
             Some(lacking) => (lacking, None),
             None => {
@@ -145,8 +146,7 @@ impl Pair<'_> {
     /// A walk always ends somewhere: refused unless the maps make that likelier right than wrong.
     fn by_walk(&self, progress: &dyn Progress) -> Result<PairReport, MergeError> {
         let [target, source] = [self.target.map, self.source.map];
-        let (prior, seed) = (self.params.prior.as_ref(), self.params.seed);
-        let walks = walk_coarse_to_fine(target, source, prior, seed, &searching(progress))?;
+        let walks = walk_coarse_to_fine(target, source, self.params, &searching(progress))?;
         let outcome = walks.last().map_or(
             Outcome::Refused(Refusal::TooLittleStructure { have: 0, need: 1 }),
             |last| match &last.outcome {
@@ -216,6 +216,13 @@ impl Pair<'_> {
             stages,
         };
         Ok((report, evidence))
+    }
+
+    fn readings_dropped(&self) -> Option<Warning> {
+        let tags = || self.target.tags.iter().chain(self.source.tags);
+        let dropped: usize = tags().map(|tag| tag.dropped).sum();
+        let used: usize = tags().map(|tag| tag.readings).sum();
+        (dropped > 0).then_some(Warning::ReadingsDropped { dropped, readings: used + dropped })
     }
 
     fn are_copies(&self) -> bool {

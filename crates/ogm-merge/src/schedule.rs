@@ -1,12 +1,11 @@
 //! Where a random walk starts, how far it may go, and how it comes to rest.
 
-use carpin_walk::{Around, DistanceParams, Objective, Params};
-use grid_match::Prior;
+use carpin_walk::{Around, DistanceParams, Params};
 use nalgebra::Point2;
 use ogm_core::{ClassThresholds, OccupancyGrid, Outcome, Progress, Se2, Stage};
 
-use crate::MergeError;
 use crate::walk::{CarpinParams, CarpinReport, align_carpin};
+use crate::{AlignParams, MergeError};
 
 /// Cells of the first walk, metres: a walk reaches some 15 cells, so on large ones it reaches far.
 const COARSE_M: f64 = 0.2;
@@ -19,16 +18,16 @@ const SIGMAS: f64 = 3.0;
 pub(crate) fn walk_coarse_to_fine(
     target: &OccupancyGrid,
     source: &OccupancyGrid,
-    prior: Option<&Prior>,
-    seed: u64,
+    params: &AlignParams,
     progress: &dyn Progress,
 ) -> Result<Vec<CarpinReport>, MergeError> {
+    let prior = params.prior.as_ref();
     let mut target_from_source = match prior {
         Some(prior) => prior.target_from_source,
         None => middle_on_middle(target, source),
     };
     let mut walks = Vec::new();
-    for (params, part) in walk_params([target, source], prior, seed).iter().zip(0_u8..) {
+    for (params, part) in walk_params([target, source], params).iter().zip(0_u8..) {
         let part = Stage::new(progress, 0.5 * f64::from(part), 0.5 * f64::from(part + 1));
         let walk = align_carpin(target, source, target_from_source, params, &part)?;
         let ended = match &walk.outcome {
@@ -45,12 +44,10 @@ pub(crate) fn walk_coarse_to_fine(
 }
 
 /// Four walks on large cells within what a prior allows, then one to settle on the maps' own.
-///
-/// Only what both maps know is compared: the paper's own measure draws maps together that overlap
-/// in part.
-fn walk_params(maps: [&OccupancyGrid; 2], prior: Option<&Prior>, seed: u64) -> [CarpinParams; 2] {
+fn walk_params(maps: [&OccupancyGrid; 2], params: &AlignParams) -> [CarpinParams; 2] {
+    let &AlignParams { prior, seed, walk_objective: objective, .. } = params;
     let distance = DistanceParams {
-        objective: Objective::Overlap { min_share: 0.25 },
+        objective,
         thresholds: ClassThresholds::default(),
         ..DistanceParams::default()
     };

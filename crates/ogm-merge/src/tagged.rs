@@ -4,6 +4,7 @@ use ogm_core::{Outcome, Progress, Se2};
 
 use crate::resolution::{at_resolution, coarser};
 use crate::stop::Stop;
+use crate::task::Task;
 use crate::{MergeError, RfidParams, RobotMap, TagEvidence, TagMethod, recipes};
 
 /// The answer of a recipe, and what led to it.
@@ -43,9 +44,12 @@ pub fn align_by_tags(
         TagMethod::Rfid1b => recipes::tags_least_squares,
         TagMethod::Rfid2 => recipes::tags_and_walls,
         TagMethod::Rfid3 => recipes::tags_walls_and_icp,
+        TagMethod::TwoTags => recipes::two_tags_walls_and_icp,
+        TagMethod::TagsIcp => recipes::tags_and_icp,
     };
     let mut evidence = TagEvidence::default();
-    let outcome = match recipe(&target, &source, params, &mut evidence, progress) {
+    let task = Task { target: &target, source: &source, params, progress };
+    let outcome = match recipe(&task, &mut evidence) {
         Ok(target_from_source) => Outcome::Found(target_from_source),
         Err(Stop::Refused(refusal)) => Outcome::Refused(refusal),
         Err(Stop::Error(error)) => return Err(error),

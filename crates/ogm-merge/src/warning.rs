@@ -18,6 +18,9 @@ pub enum Warning {
     /// Tags and walls differ by more than 20 degrees.
     #[error("tags and walls differ by more than 20 degrees")]
     QuadrantResidual,
+    /// The walls' direction was of no use, so the refinement started from the tags alone.
+    #[error("the walls gave no direction that holds, so the tags alone were refined")]
+    StartedFromTags,
     /// The common walls leave one direction open.
     #[error(
         "the common walls leave one direction open, as in a corridor; along it the tags decide"
@@ -29,6 +32,16 @@ pub enum Warning {
     /// The refinement could not improve on its start.
     #[error("the refinement could not improve on its start, which was kept")]
     NotImproved,
+    /// Readings that no such reader gives were left out.
+    #[error(
+        "{dropped} of {readings} tag readings are none that the reader gives (below 0, beyond its range, not finite), and were left out"
+    )]
+    ReadingsDropped {
+        /// How many, in both maps.
+        dropped: usize,
+        /// Of how many.
+        readings: usize,
+    },
     /// The tags that there are gave no answer, so the maps were matched without them.
     #[error("the maps were matched without their tags: {0}")]
     WithoutTags(Refusal),

@@ -1,4 +1,4 @@
-//! All blocks in a row, and the way back to another segment.
+//! All blocks in a row, over every pair of segments.
 
 use ogm_core::{Cancelled, Grid, OccupancyGrid, Outcome, Progress, Refusal, Se2, Stage, Steps};
 

@@ -56,6 +56,9 @@ pub enum Objective {
     Walls,
     /// agr − dis: Eq. 18 with the sign that the text describes.
     AgreementLessDisagreement,
+    /// The entropy's opposite: its least value is the best place, as the paper tunes by entropy in
+    /// its last step (Eq. 21).
+    LeastEntropy,
     /// |dis − agr|, as in Eq. 18, which is large where the maps contradict each other, too.
     AsPrinted,
 }
@@ -173,6 +176,11 @@ pub fn similarity(counts: &JointCounts, params: &TranslationParams) -> f64 {
     match params.objective {
         Objective::Walls => counts.both_occupied as f64 - disagreement as f64,
         Objective::AgreementLessDisagreement => difference,
+        // Nothing known in common has no entropy, and is the worst place.
+        Objective::LeastEntropy if counts.agreement() + counts.disagreement() == 0 => {
+            f64::NEG_INFINITY
+        }
+        Objective::LeastEntropy => -joint_entropy(counts, params.histogram),
         Objective::AsPrinted => difference.abs(),
     }
 }

@@ -210,6 +210,15 @@ fn a_translation_that_is_off_by_cells_is_tuned_back() {
     let error = truth_target_from_source.between(&window.target_from_source);
     assert!(error.translation().norm() < 1e-9, "{error:?}");
 
+    let by_entropy = TranslationParams { objective: Objective::LeastEntropy, ..params };
+    let tuned =
+        tune_translation(&target, &source, start_target_from_source, &thresholds, &by_entropy);
+    let tuned = tuned.unwrap();
+    assert_eq!(tuned.shift, [7, -5]);
+    assert_eq!(tuned.target_from_source, window.target_from_source);
+    let nothing_in_common = JointCounts { both_unknown: 9, ..JointCounts::default() };
+    assert_eq!(radon_merge::similarity(&nothing_in_common, &by_entropy), f64::NEG_INFINITY);
+
     let objective = Objective::AgreementLessDisagreement;
     let params = TranslationParams { objective, ..params };
     let window =

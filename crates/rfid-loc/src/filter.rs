@@ -1,16 +1,15 @@
 //! The grid Bayes filter of one tag (Eqs. 1, 2).
 
-use nalgebra::{Point2, Vector2};
+use nalgebra::{Matrix2, Point2, Vector2};
 use ogm_core::{CellIndex, Grid, GridFrame, ParameterError, Se2, TagEstimate, require};
 
+use crate::fit::{Bias, Fit, OUTLIER_SIGMA};
+use crate::params::RANGE_SLACK_SIGMA;
 use crate::window::{Peak, most_probable};
-use crate::{FilterParams, PositionRule, TagError};
+use crate::{FilterParams, Likelihood, PositionRule, TagError};
 
 /// Coordinates beyond this many metres are errors: an `f64` resolves less than a micrometre there.
 pub(crate) const MAX_COORDINATE: f64 = 1e9;
-
-/// Measured ranges may exceed the maximum range by this many sigma.
-const RANGE_SLACK_SIGMA: f64 = 4.0;
 
 /// Readings between two subtractions of the smallest cost; see [`TagFilter`] on precision.
 const LEVEL_EVERY: usize = 32;
@@ -37,7 +36,8 @@ pub struct TagFilter {
     costs: Grid<f32>,
     /// Squared horizontal distances of one reading, in 2σ².
     columns_sq: Vec<f32>,
-    readings: usize,
+    /// Robot positions and ranges, for the fit.
+    readings: Vec<(Point2<f64>, f64)>,
 }
 
 impl TagFilter {
@@ -54,7 +54,7 @@ impl TagFilter {
             frame: GridFrame::new(params.cell_size, Se2::new(lower_left.x, lower_left.y, 0.0))?,
             costs: Grid::filled(side, side, 0.0)?,
             columns_sq: vec![0.0; side],
-            readings: 0,
+            readings: Vec::new(),
         })
     }
 
@@ -82,11 +82,8 @@ impl TagFilter {
     /// A position or range that is not finite, a negative range, or one longer than the maximum
     /// plus 4 sigma. The filter is unchanged then.
     pub fn update(&mut self, robot_position: Point2<f64>, range: f64) -> Result<(), TagError> {
-        check_position(robot_position)?;
-        let limit = self.params.max_range + RANGE_SLACK_SIGMA * self.params.range_sigma;
-        if !(0.0..=limit).contains(&range) {
-            return Err(TagError::Range { range, limit });
-        }
+        check_reading(robot_position, range, &self.params)?;
+        self.readings.push((robot_position, range));
         // In units of σ√2 a squared residual is a cost.
         let unit = self.params.range_sigma * std::f64::consts::SQRT_2;
         let robot = self.frame.cells_from_point(robot_position);
@@ -95,16 +92,19 @@ impl TagFilter {
             *sq = squared_f32((column as f64 + 0.5 - robot.x) * cell);
         }
         let range = to_f32(range / unit);
+        let most = match self.params.likelihood {
+            Likelihood::Gaussian => f32::INFINITY,
+            Likelihood::Truncated => to_f32(OUTLIER_SIGMA * OUTLIER_SIGMA / 2.0),
+        };
         let side = self.params.side_cells;
         for (row, costs) in self.costs.cells_mut().chunks_exact_mut(side).enumerate() {
             let row_sq = squared_f32((row as f64 + 0.5 - robot.y) * cell);
             for (cost, column_sq) in costs.iter_mut().zip(&self.columns_sq) {
                 let residual = (column_sq + row_sq).sqrt() - range;
-                *cost += residual * residual;
+                *cost += (residual * residual).min(most);
             }
         }
-        self.readings += 1;
-        if self.readings.is_multiple_of(LEVEL_EVERY) {
+        if self.readings.len().is_multiple_of(LEVEL_EVERY) {
             let least = self.least_cost();
             self.costs.cells_mut().iter_mut().for_each(|cost| *cost -= least);
         }
@@ -114,7 +114,7 @@ impl TagFilter {
     /// Readings taken in.
     #[must_use]
     pub fn readings(&self) -> usize {
-        self.readings
+        self.readings.len()
     }
 
     /// The lattice of [`posterior`](Self::posterior) in the map frame.
@@ -126,9 +126,14 @@ impl TagFilter {
     /// The probability of each cell; the sum is 1 (Eq. 2, over all cells).
     #[must_use]
     pub fn posterior(&self) -> Grid<f64> {
+        self.posterior_widened_by(1.0)
+    }
+
+    /// The posterior of a sensor whose variance is `scale_sq` times that of the parameters.
+    fn posterior_widened_by(&self, scale_sq: f32) -> Grid<f64> {
         let least = self.least_cost();
         let mut posterior = self.costs.map(|cost| {
-            let excess = cost - least;
+            let excess = (cost - least) / scale_sq;
             if excess < NEGLIGIBLE_COST { f64::from(-excess).exp() } else { 0.0 }
         });
         let sum: f64 = posterior.cells().iter().sum();
@@ -137,27 +142,70 @@ impl TagFilter {
     }
 
     /// Where the tag is believed to be, or `None` before the first reading.
+    ///
+    /// Where [`FilterParams::check_fit`] asks for it, the certainty and the covariance are those
+    /// that the readings deserve: of a sensor as noisy as their residuals say, and times the
+    /// probability that its ranges have no bias.
     #[must_use]
     pub fn estimate(&self, tag_id: u32) -> Option<TagEstimate> {
-        if self.readings == 0 {
+        let (estimate, bias) = self.fitted(tag_id)?;
+        Some(match bias {
+            Some(bias) => {
+                TagEstimate { certainty: estimate.certainty * bias.unbiased(), ..estimate }
+            }
+            None => estimate,
+        })
+    }
+
+    /// The estimate before a bias is thought of, and what is to be thought where the fit is checked.
+    pub(crate) fn fitted(&self, tag_id: u32) -> Option<(TagEstimate, Option<Bias>)> {
+        if self.readings.is_empty() {
             return None;
         }
-        let posterior = self.posterior();
+        let mut posterior = self.posterior();
         let mode = most_probable(&posterior);
-        let peak = Peak::of(&posterior, self.params.sub_sampling, self.params.window);
-        let mode_centre = self.frame.cell_centre(mode);
-        Some(TagEstimate {
+        let mut peak = self.peak(&posterior);
+        let position = match self.params.position {
+            PositionRule::WindowCentroid => self.frame.point_from_cells(peak.centroid),
+            PositionRule::Mode => self.frame.cell_centre(mode),
+        };
+        let fit = Fit::of(&self.readings, position, &self.params);
+        if self.params.check_fit && fit.scale_sq > 1.0 {
+            posterior = self.posterior_widened_by(to_f32(fit.scale_sq));
+            peak = self.peak(&posterior);
+        }
+        let estimate = TagEstimate {
             tag_id,
-            position: match self.params.position {
-                PositionRule::WindowCentroid => self.frame.point_from_cells(peak.centroid),
-                PositionRule::Mode => mode_centre,
-            },
-            mode: mode_centre,
+            position,
+            mode: self.frame.cell_centre(mode),
+            covariance: self.covariance(&posterior, position),
             certainty: peak.mass.min(1.0),
-            readings: self.readings,
+            misfit: fit.misfit,
+            readings: self.readings.len(),
+            dropped: 0,
             touches_border: self.is_near_border(mode) || self.is_near_border(peak.middle),
             second_peak_ratio: peak.second_ratio,
-        })
+        };
+        Some((estimate, self.params.check_fit.then_some(fit.bias)))
+    }
+
+    fn peak(&self, posterior: &Grid<f64>) -> Peak {
+        Peak::of(posterior, self.params.sub_sampling, self.params.window)
+    }
+
+    /// Second moments about `position`, m²; a cell is as wide as it is.
+    fn covariance(&self, posterior: &Grid<f64>, position: Point2<f64>) -> Matrix2<f64> {
+        let cell = self.params.cell_size;
+        let middle = self.frame.cells_from_point(position);
+        let mut moments = Matrix2::from_diagonal_element(1.0 / 12.0);
+        for (row, cells) in posterior.rows().enumerate() {
+            let y = row as f64 + 0.5 - middle.y;
+            for (column, &mass) in cells.iter().enumerate() {
+                let x = column as f64 + 0.5 - middle.x;
+                moments += mass * Matrix2::new(x * x, x * y, x * y, y * y);
+            }
+        }
+        cell * cell * moments
     }
 
     fn least_cost(&self) -> f32 {
@@ -168,6 +216,17 @@ impl TagFilter {
         let side = self.params.side_cells;
         [cell.column, cell.row].iter().any(|&at| at < 2 || at + 2 >= side)
     }
+}
+
+/// Whether a reader of these parameters can give this.
+pub(crate) fn check_reading(
+    robot_position: Point2<f64>,
+    range: f64,
+    params: &FilterParams,
+) -> Result<(), TagError> {
+    check_position(robot_position)?;
+    let limit = params.max_range + RANGE_SLACK_SIGMA * params.range_sigma;
+    if (0.0..=limit).contains(&range) { Ok(()) } else { Err(TagError::Range { range, limit }) }
 }
 
 pub(crate) fn check_position(position: Point2<f64>) -> Result<(), TagError> {

@@ -1,6 +1,6 @@
 //! Tag pairs for tests.
 
-use nalgebra::Point2;
+use nalgebra::{Matrix2, Point2};
 use ogm_core::{Se2, TagEstimate};
 
 use crate::{TagPair, common_tags};
@@ -12,8 +12,11 @@ pub(crate) fn estimate(tag_id: u32, x: f64, y: f64) -> TagEstimate {
         tag_id,
         position,
         mode: position,
+        covariance: Matrix2::from_diagonal_element(1e-4),
         certainty: 0.99,
+        misfit: 1.0,
         readings: 300,
+        dropped: 0,
         touches_border: false,
         second_peak_ratio: 0.0,
     }

@@ -4,7 +4,7 @@
 //! to two mirror images, then, once it has driven a curve, to about a centimetre.
 //! [`TagFilter`] is that as a Bayes filter on a grid, [`localise`] runs it over a log. Two robots
 //! that know the same three tags know how their maps lie to each other: [`common_tags`] and
-//! [`select_tags`] pick them, [`tag_rotation`] and [`quadrant`] turn, [`anchor_on_best_tag`]
+//! [`select_tags`] pick them, [`tag_rotation`] and [`quadrant`] turn, [`anchor_on_tag`]
 //! translates. [`tag_only_transform`] and [`least_squares_transform`] do without walls.
 //!
 //! ```
@@ -36,6 +36,7 @@
 
 mod error;
 mod filter;
+mod fit;
 #[cfg(test)]
 mod fixture;
 mod localise;
@@ -53,14 +54,14 @@ pub use localise::localise;
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
 pub use params::{
-    CertaintyWindow, FilterParams, PositionRule, RotationCentre, RotationParams, SelectionParams,
-    TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation,
+    CertaintyWindow, FilterParams, Likelihood, PositionRule, RotationCentre, RotationParams,
+    SelectionParams, TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation,
 };
 pub use quadrant::{AMBIGUOUS_ABOVE, Quadrant, QuadrantConfidence, quadrant};
-pub use rotation::{RotationRule, TagRotation, tag_rotation};
-pub use selection::{TagPair, common_tags, select_tags};
+pub use rotation::{RotationRule, TagRotation, pair_rotation, tag_rotation};
+pub use selection::{TagPair, common_tags, select_tags, select_two_tags, sure_tags};
 pub use tag_only::tag_only_transform;
-pub use transform::{anchor_on_all_tags, anchor_on_best_tag, least_squares_transform};
+pub use transform::{anchor_on_all_tags, anchor_on_tag, least_squares_transform, tag_residual};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

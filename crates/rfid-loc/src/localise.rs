@@ -2,8 +2,11 @@
 
 use std::collections::BTreeMap;
 
+use nalgebra::Point2;
 use ogm_core::{Progress, Steps, TagEstimate, TagReading};
 
+use crate::filter::check_reading;
+use crate::fit::Bias;
 use crate::{FilterParams, TagError, TagFilter};
 
 /// Where the tags of a log are, in the frame of its robot positions, sorted by tag.
@@ -11,9 +14,15 @@ use crate::{FilterParams, TagError, TagFilter};
 /// Each tag is searched around where the robot first read it ([`TagFilter::around`]), and its
 /// readings multiply over gaps in which it was out of range (Tsardoulias et al., section 3).
 ///
+/// A bias is one of the reader, so all tags are asked for it together: what one tag cannot tell
+/// from a place further away, several can. A certainty is lowered by what they say, or by what its
+/// own readings say if that is more.
+///
+/// Readings that no such reader gives (not finite, below zero, beyond its range) are left out and
+/// counted in [`TagEstimate::dropped`]; a tag without any other has no estimate.
+///
 /// # Errors
-/// The first reading that [`TagFilter::update`] does not take, of the smallest tag that has one,
-/// or [`TagError::Cancelled`].
+/// Parameters that cannot be meant, or [`TagError::Cancelled`].
 pub fn localise(
     readings: &[TagReading],
     params: &FilterParams,
@@ -24,20 +33,27 @@ pub fn localise(
         by_tag.entry(reading.tag_id).or_default().push(reading);
     }
     let done = Steps::new(progress, readings.len());
-    let mut estimates = Vec::with_capacity(by_tag.len());
+    let mut fitted = Vec::with_capacity(by_tag.len());
     for (tag_id, readings) in by_tag {
-        let Some(first) = readings.first() else {
-            continue;
-        };
-        let mut filter = TagFilter::around(first.robot_position, params)?;
-        for reading in readings {
+        let (usable, bad): (Vec<&TagReading>, Vec<_>) = readings.into_iter().partition(|reading| {
+            check_reading(reading.robot_position, reading.range, params).is_ok()
+        });
+        let first = usable.first().map_or(Point2::origin(), |first| first.robot_position);
+        let mut filter = TagFilter::around(first, params)?;
+        for reading in usable {
             filter.update(reading.robot_position, reading.range)?;
             done.step()?;
         }
-        estimates.extend(filter.estimate(tag_id));
+        let tag = filter.fitted(tag_id);
+        fitted.extend(tag.map(|(tag, bias)| (TagEstimate { dropped: bad.len(), ..tag }, bias)));
     }
     progress.report(1.0);
-    Ok(estimates)
+    let reader = Bias::pooled(fitted.iter().filter_map(|(_, bias)| bias.as_ref())).unbiased();
+    let believed = fitted.into_iter().map(|(tag, bias)| match bias {
+        Some(bias) => TagEstimate { certainty: tag.certainty * reader.min(bias.support()), ..tag },
+        None => tag,
+    });
+    Ok(believed.collect())
 }
 
 #[cfg(test)]
@@ -80,10 +96,31 @@ mod tests {
     }
 
     #[test]
-    fn one_impossible_reading_is_an_error_and_not_a_gap() {
-        let mut readings = log(4, Point2::new(0.2, 0.2));
-        readings[7].range = f64::NAN;
-        let error = localise(&readings, &FilterParams::default(), &()).unwrap_err();
-        assert!(matches!(error, TagError::Range { .. }), "{error}");
+    fn impossible_readings_are_counted_and_change_nothing_else() {
+        let params = FilterParams::default();
+        let good = log(4, Point2::new(0.2, 0.2));
+        let expected = localise(&good, &params, &()).unwrap();
+        let mut readings = good.clone();
+        let nowhere = Point2::new(f64::NAN, 0.0);
+        readings.insert(0, TagReading { robot_position: nowhere, ..good[0] });
+        for (at, range) in [(3, f64::NAN), (9, -0.02), (17, 3.21)] {
+            readings.insert(at, TagReading { range, ..good[at] });
+        }
+        let found = localise(&readings, &params, &()).unwrap();
+        assert_eq!((found[0].dropped, found[0].readings), (4, good.len()));
+        assert_eq!(
+            (found[0].position, found[0].misfit),
+            (expected[0].position, expected[0].misfit)
+        );
+
+        let only_bad = [TagReading { range: f64::INFINITY, ..good[0] }];
+        assert_eq!(localise(&only_bad, &params, &()), Ok(vec![]));
+    }
+
+    #[test]
+    fn parameters_that_describe_no_reader_are_an_error() {
+        let params = FilterParams { range_sigma: f64::NAN, ..FilterParams::default() };
+        let error = localise(&log(4, Point2::origin()), &params, &()).unwrap_err();
+        assert!(matches!(error, TagError::Parameter(_)), "{error}");
     }
 }

@@ -5,16 +5,23 @@ use nalgebra::Point2;
 /// How a tag filter models the sensor and reads its own posterior.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FilterParams {
-    /// Metres a cell of the search area. 0.02, so that [`side_cells`](Self::side_cells) of them
-    /// span twice the sensor's range; independent of the map's resolution.
+    /// Metres a cell of the search area. 0.02 up to a sigma of 0.05 m and in proportion to larger
+    /// ones, so that a certainty says the same about every reader; independent of the map's
+    /// resolution.
     pub cell_size: f64,
-    /// Cells a side of the search area: 300 (section 3), 6 m at 0.02 m.
+    /// Cells a side of the search area: 326, so that a tag that is first read at the longest range
+    /// lies inside with four sigma of noise. The paper's 300 (section 3) put it on the border.
     pub side_cells: usize,
     /// Standard deviation of a range, metres: 0.05 (section 3). Also the width of the likelihood
     /// annulus.
     pub range_sigma: f64,
     /// Longest true range, metres: 3 (section 3). A measured range may exceed it by 4 sigma.
     pub max_range: f64,
+    /// What a residual costs.
+    pub likelihood: Likelihood,
+    /// Whether readings that do not fit the model lower the certainty and widen the covariance:
+    /// yes. The paper believes its model.
+    pub check_fit: bool,
     /// Which windows compete for the certainty.
     pub window: CertaintyWindow,
     /// Where in the winning window the tag is said to be.
@@ -25,24 +32,73 @@ pub struct FilterParams {
 
 impl Default for FilterParams {
     fn default() -> Self {
+        Self::for_reader(3.0, 0.05)
+    }
+}
+
+/// Cells between the furthest place of a tag and the border: those that count as the border, and
+/// one for the robot's place in its own cell.
+const BORDER_CELLS: f64 = 3.0;
+
+impl FilterParams {
+    /// The parameters for a reader with this longest range and this standard deviation of a range,
+    /// metres.
+    #[must_use]
+    pub fn for_reader(max_range: f64, range_sigma: f64) -> Self {
+        let cell_size = (0.4 * range_sigma).max(0.02);
+        let reach = ((max_range + RANGE_SLACK_SIGMA * range_sigma) / cell_size).ceil();
         Self {
-            cell_size: 0.02,
-            side_cells: 300,
-            range_sigma: 0.05,
-            max_range: 3.0,
+            cell_size,
+            side_cells: whole(2.0 * (reach + BORDER_CELLS)),
+            range_sigma,
+            max_range,
+            likelihood: Likelihood::Truncated,
+            check_fit: true,
             window: CertaintyWindow::Sliding,
             position: PositionRule::WindowCentroid,
             sub_sampling: 3,
         }
     }
-}
 
-impl FilterParams {
-    /// Certainty from disjoint blocks and position from the most probable cell, as printed.
+    /// 300 cells a side, a Gaussian annulus that is believed, certainty from disjoint blocks and
+    /// position from the most probable cell, as printed.
     #[must_use]
     pub fn paper() -> Self {
-        Self { window: CertaintyWindow::Disjoint, position: PositionRule::Mode, ..Self::default() }
+        Self {
+            side_cells: 300,
+            likelihood: Likelihood::Gaussian,
+            check_fit: false,
+            window: CertaintyWindow::Disjoint,
+            position: PositionRule::Mode,
+            ..Self::default()
+        }
     }
+}
+
+/// Measured ranges may exceed the maximum range by this many sigma.
+pub(crate) const RANGE_SLACK_SIGMA: f64 = 4.0;
+
+/// Zero where nothing can be meant; the filter says what is wrong.
+#[expect(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "saturates, and a grid of so many cells is refused"
+)]
+fn whole(cells: f64) -> usize {
+    cells as usize
+}
+
+/// What a reading costs a place that it does not fit.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum Likelihood {
+    /// Half the square of the residual in sigma, and no more beyond three of them, so that echoes
+    /// and other outliers pull at nothing. Up to a quarter of the readings may be such without
+    /// lowering the certainty.
+    #[default]
+    Truncated,
+    /// Half the square of the residual in sigma, however large: the annulus of the paper, which
+    /// one echo in ten pulls off by 0.1 m.
+    Gaussian,
 }
 
 /// Which windows compete for the certainty of a tag.
@@ -118,6 +174,18 @@ pub struct TagOnlyParams {
     pub centre: RotationCentre,
     /// The shortest lever of a direction.
     pub levers: RotationParams,
+}
+
+impl TagOnlyParams {
+    /// Rotation and translation as section 5.2 prints them, in the map frames.
+    #[must_use]
+    pub fn paper() -> Self {
+        Self {
+            rotation: TagOnlyRotation::AsPrinted,
+            translation: TagOnlyTranslation::AsPrinted,
+            ..Self::default()
+        }
+    }
 }
 
 /// Which direction the rotation from tags alone compares.

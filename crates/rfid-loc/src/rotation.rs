@@ -26,7 +26,8 @@ pub struct TagRotation {
 pub enum RotationRule {
     /// The direction from the midpoint of the two best tags to the third (Eqs. 5, 6).
     Midpoint,
-    /// Least squares over all tags, as the third lies too near the midpoint of the others.
+    /// Least squares over all tags: of two, or where the third lies too near the midpoint of the
+    /// others.
     LeastSquares,
 }
 
@@ -37,6 +38,19 @@ pub enum RotationRule {
 /// together, with [`Refusal::Ambiguous`] if the maps place them too differently to fit at all.
 pub fn tag_rotation(tags: &[TagPair; 3], params: &RotationParams) -> Outcome<TagRotation> {
     rotation_towards(&tags[2], tags, params).into()
+}
+
+/// The rotation of target-from-source that two tags give: that of the direction from one to the
+/// other (Tsardoulias et al., section 6, future work).
+///
+/// Refuses as [`tag_rotation`] does; the shortest lever is half of their distance.
+pub fn pair_rotation(tags: &[TagPair; 2], params: &RotationParams) -> Outcome<TagRotation> {
+    let rotation = least_squares_rotation(tags, params).map(|angle| TagRotation {
+        angle,
+        rule: RotationRule::LeastSquares,
+        mismatch: distances_differ(tags, params),
+    });
+    rotation.into()
 }
 
 /// The rotation from the direction of `tag` seen from the midpoint of the two best.
@@ -110,19 +124,21 @@ fn direction(arm: Vector2<f64>) -> f64 {
     arm.y.atan2(arm.x)
 }
 
-fn distances_differ(tags: &[TagPair; 3], params: &RotationParams) -> bool {
-    [(0, 1), (1, 2), (2, 0)].into_iter().any(|(i, j)| {
-        let ((target_a, source_a), (target_b, source_b)) =
-            (positions(&tags[i]), positions(&tags[j]));
-        let (in_target, in_source) = ((target_a - target_b).norm(), (source_a - source_b).norm());
-        let share = params.distance_tolerance_share * in_target.max(in_source);
-        (in_target - in_source).abs() > params.distance_tolerance.max(share)
+fn distances_differ(tags: &[TagPair], params: &RotationParams) -> bool {
+    tags.iter().enumerate().any(|(index, a)| {
+        tags[index + 1..].iter().any(|b| {
+            let ((target_a, source_a), (target_b, source_b)) = (positions(a), positions(b));
+            let (in_target, in_source) =
+                ((target_a - target_b).norm(), (source_a - source_b).norm());
+            let share = params.distance_tolerance_share * in_target.max(in_source);
+            (in_target - in_source).abs() > params.distance_tolerance.max(share)
+        })
     })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{RotationRule, tag_rotation};
+    use super::{RotationRule, pair_rotation, tag_rotation};
     use crate::RotationParams;
     use crate::fixture::{moved_pairs, pairs_at};
     use ogm_core::{Refusal, Se2};
@@ -193,6 +209,32 @@ mod tests {
         let no_minimum = RotationParams { min_arm: 0.0, ..RotationParams::default() };
         let same = moved_pairs(Se2::identity(), [[1.0, 1.0]; 3]);
         assert!(tag_rotation(&same, &no_minimum).refusal().is_some());
+    }
+
+    #[test]
+    fn two_tags_turn_by_the_direction_between_them_and_are_checked_too() {
+        let target_from_source = Se2::new(3.0, -1.0, -2.5);
+        let tags = moved_pairs(target_from_source, [[0.0, 0.0], [2.0, 1.0]]);
+        let rotation = pair_rotation(&tags, &RotationParams::default()).found().unwrap();
+        assert!((rotation.angle + 2.5).abs() < 1e-12 && !rotation.mismatch);
+        let stretched = pairs_at([([0.0, 0.0], [0.0, 0.0]), ([2.2, 0.0], [2.0, 0.0])]);
+        assert!(pair_rotation(&stretched, &RotationParams::default()).found().unwrap().mismatch);
+        let near = moved_pairs(target_from_source, [[0.0, 0.0], [0.9, 0.0]]);
+        assert!(pair_rotation(&near, &RotationParams::default()).refusal().is_some());
+    }
+
+    #[test]
+    fn each_of_three_distances_is_checked() {
+        for moved in 0..3 {
+            let mut places = [[0.0, 0.0], [4.0, 0.0], [2.0, 3.0]].map(|at| (at, at));
+            // Along the side to the next tag, so that the other distance changes less.
+            let next = places[(moved + 1) % 3].1;
+            let here = places[moved].1;
+            let away = 0.3 / f64::hypot(next[0] - here[0], next[1] - here[1]);
+            places[moved].0 = [0, 1].map(|axis| here[axis] - away * (next[axis] - here[axis]));
+            let tags = pairs_at(places);
+            assert!(tag_rotation(&tags, &RotationParams::default()).found().unwrap().mismatch);
+        }
     }
 
     #[test]

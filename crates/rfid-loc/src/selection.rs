@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Point2;
-use ogm_core::{Outcome, Refusal, TagEstimate};
+use ogm_core::{Outcome, Refusal, TagEstimate, require};
 
 use crate::filter::MAX_COORDINATE;
 use crate::{SelectionParams, TagError};
@@ -71,30 +71,69 @@ pub fn common_tags(
 /// `pairs` are ordered as [`common_tags`] gives them. A pair too near a better one is passed over
 /// as long as others are sure enough; otherwise the three most certain are taken wherever they
 /// lie. Refuses with [`Refusal::TooFewTags`] or [`Refusal::LowCertainty`].
-pub fn select_tags(pairs: &[TagPair], params: &SelectionParams) -> Outcome<[TagPair; 3]> {
-    let &[best, second, third, ..] = pairs else {
-        return Outcome::Refused(Refusal::TooFewTags { have: pairs.len(), need: 3 });
+///
+/// # Errors
+/// A threshold that is no probability, or a separation that is no distance.
+pub fn select_tags(
+    pairs: &[TagPair],
+    params: &SelectionParams,
+) -> Result<Outcome<[TagPair; 3]>, TagError> {
+    select(pairs, params)
+}
+
+/// As [`select_tags`], with two tags: the direction from one to the other turns the map, so that
+/// they must lie apart (Tsardoulias et al., section 6, future work).
+///
+/// # Errors
+/// As [`select_tags`].
+pub fn select_two_tags(
+    pairs: &[TagPair],
+    params: &SelectionParams,
+) -> Result<Outcome<[TagPair; 2]>, TagError> {
+    select(pairs, params)
+}
+
+/// All pairs that are as sure as the third must be, in the order of `pairs`.
+#[must_use]
+pub fn sure_tags<'a>(pairs: &'a [TagPair], params: &SelectionParams) -> &'a [TagPair] {
+    let sure = pairs.iter().take_while(|pair| pair.certainty() > params.third_above);
+    &pairs[..sure.count()]
+}
+
+fn select<const N: usize>(
+    pairs: &[TagPair],
+    params: &SelectionParams,
+) -> Result<Outcome<[TagPair; N]>, TagError> {
+    let is_probability = |value: f64| (0.0..=1.0).contains(&value);
+    let &SelectionParams { best_above, third_above, min_separation } = params;
+    require(is_probability(best_above), "best_above", "in [0, 1]", best_above)?;
+    require(is_probability(third_above), "third_above", "in [0, 1]", third_above)?;
+    let is_distance = (0.0..=MAX_COORDINATE).contains(&min_separation);
+    require(is_distance, "min_separation", "0 to 1e9 m", min_separation)?;
+
+    let Some(first) = pairs.first_chunk::<N>() else {
+        return Ok(Outcome::Refused(Refusal::TooFewTags { have: pairs.len(), need: N }));
     };
-    for (pair, need) in [(best, params.best_above), (third, params.third_above)] {
+    for (pair, need) in [(&first[0], best_above), (&first[N - 1], third_above)] {
         let reached = pair.certainty();
         let is_enough = reached > need;
         if !is_enough {
-            return Outcome::Refused(Refusal::LowCertainty { best: reached, need });
+            return Ok(Outcome::Refused(Refusal::LowCertainty { best: reached, need }));
         }
     }
-    Outcome::Found(three_apart(pairs, params).unwrap_or([best, second, third]))
+    Ok(Outcome::Found(apart(pairs, params).unwrap_or(*first)))
 }
 
 /// The most certain pairs of which none is nearer to a better one than the separation.
-fn three_apart(pairs: &[TagPair], params: &SelectionParams) -> Option<[TagPair; 3]> {
-    let mut chosen: Vec<TagPair> = Vec::with_capacity(3);
-    for pair in pairs.iter().take_while(|pair| pair.certainty() > params.third_above) {
+fn apart<const N: usize>(pairs: &[TagPair], params: &SelectionParams) -> Option<[TagPair; N]> {
+    let mut chosen: Vec<TagPair> = Vec::with_capacity(N);
+    for pair in sure_tags(pairs, params) {
         let apart = |better: &TagPair| {
             let in_target = (pair.target.position - better.target.position).norm();
             let in_source = (pair.source.position - better.source.position).norm();
             in_target.min(in_source) >= params.min_separation
         };
-        if chosen.len() < 3 && chosen.iter().all(apart) {
+        if chosen.len() < N && chosen.iter().all(apart) {
             chosen.push(*pair);
         }
     }
@@ -123,7 +162,7 @@ fn by_id(estimates: &[TagEstimate]) -> Result<BTreeMap<u32, &TagEstimate>, TagEr
 
 #[cfg(test)]
 mod tests {
-    use super::{common_tags, select_tags};
+    use super::{common_tags, select_tags, select_two_tags, sure_tags};
     use crate::fixture::estimate;
     use crate::{SelectionParams, TagError};
     use ogm_core::{Outcome, Refusal, TagEstimate};
@@ -140,7 +179,7 @@ mod tests {
 
     fn select(target: &[(u32, u32)], source: &[(u32, u32)]) -> Outcome<Vec<(u32, f64)>> {
         let pairs = common_tags(&known(target), &known(source)).unwrap();
-        match select_tags(&pairs, &SelectionParams::default()) {
+        match select_tags(&pairs, &SelectionParams::default()).unwrap() {
             Outcome::Found(pairs) => {
                 Outcome::Found(pairs.map(|pair| (pair.tag_id(), pair.certainty())).to_vec())
             }
@@ -180,7 +219,7 @@ mod tests {
         target[1].touches_border = true;
         let source = known(&[(1, 99), (2, 99), (3, 99)]);
         let pairs = common_tags(&target, &source).unwrap();
-        let refused = select_tags(&pairs, &SelectionParams::default());
+        let refused = select_tags(&pairs, &SelectionParams::default()).unwrap();
         let too_few = Refusal::TooFewTags { have: 2, need: 3 };
         assert_eq!(refused.refusal(), Some(&too_few));
     }
@@ -190,13 +229,42 @@ mod tests {
         let at = |id, x, certainty| TagEstimate { certainty, ..estimate(id, x, 0.0) };
         let ids = |tags: &[TagEstimate]| {
             let pairs = common_tags(tags, tags).unwrap();
-            let selected = select_tags(&pairs, &SelectionParams::default()).found().unwrap();
+            let selected =
+                select_tags(&pairs, &SelectionParams::default()).unwrap().found().unwrap();
             selected.map(|pair| pair.tag_id())
         };
         let beside = [at(1, 0.0, 0.99), at(2, 0.1, 0.98), at(3, 2.0, 0.97), at(4, 4.0, 0.80)];
         assert_eq!(ids(&beside), [1, 3, 4]);
         let unsure = [at(1, 0.0, 0.99), at(2, 0.1, 0.98), at(3, 2.0, 0.97), at(4, 4.0, 0.70)];
         assert_eq!(ids(&unsure), [1, 2, 3], "nearness never lowers the certainty asked for");
+    }
+
+    #[test]
+    fn two_tags_suffice_where_two_are_asked_for_and_lie_apart_if_they_can() {
+        let at = |id, x, certainty| TagEstimate { certainty, ..estimate(id, x, 0.0) };
+        let params = SelectionParams::default();
+        let tags = [at(1, 0.0, 0.99), at(2, 0.1, 0.98), at(3, 2.0, 0.80)];
+        let pairs = common_tags(&tags, &tags).unwrap();
+        let two = select_two_tags(&pairs, &params).unwrap().found().unwrap();
+        assert_eq!(two.map(|pair| pair.tag_id()), [1, 3]);
+        let refused = select_two_tags(&pairs[..1], &params).unwrap();
+        assert_eq!(refused.refusal(), Some(&Refusal::TooFewTags { have: 1, need: 2 }));
+        assert_eq!(sure_tags(&pairs, &params).len(), 3);
+        let strict = SelectionParams { third_above: 0.80, ..params };
+        assert_eq!(sure_tags(&pairs, &strict).len(), 2);
+    }
+
+    #[test]
+    fn thresholds_that_are_none_are_errors() {
+        let good = SelectionParams::default();
+        for bad in [
+            SelectionParams { best_above: f64::NAN, ..good },
+            SelectionParams { third_above: 1.5, ..good },
+            SelectionParams { min_separation: -0.1, ..good },
+            SelectionParams { min_separation: f64::NAN, ..good },
+        ] {
+            assert!(matches!(select_tags(&[], &bad), Err(TagError::Parameter(_))), "{bad:?}");
+        }
     }
 
     #[test]

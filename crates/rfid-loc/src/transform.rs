@@ -3,30 +3,32 @@
 use nalgebra::Point2;
 use ogm_core::{Outcome, Refusal, Se2};
 
+use crate::filter::check_position;
 use crate::quadrant::check_angle;
 use crate::rotation::{centroids, least_squares_rotation};
 use crate::selection::positions;
 use crate::{RotationParams, TagError, TagPair};
 
-/// The `target_from_source` that turns by `theta` radians and lays the most certain tag of the
-/// source onto that of the target (Tsardoulias et al., Eqs. 8, 9).
+/// The `target_from_source` that turns by `theta` radians and lays a tag of the source, in the
+/// paper the most certain one, onto that of the target (Tsardoulias et al., Eqs. 8, 9).
 ///
 /// # Errors
 /// A rotation that is not finite.
-pub fn anchor_on_best_tag(theta: f64, tags: &[TagPair; 3]) -> Result<Se2, TagError> {
+pub fn anchor_on_tag(theta: f64, tag: &TagPair) -> Result<Se2, TagError> {
     check_angle(theta)?;
-    let (target, source) = positions(&tags[0]);
+    let (target, source) = positions(tag);
     Ok(laid_onto(theta, target, source))
 }
 
-/// As [`anchor_on_best_tag`], with the centroid of the three tags in place of the best one, which
-/// averages the tags' errors.
+/// As [`anchor_on_tag`], with the centroid of all tags in place of one, which averages their
+/// errors.
 ///
 /// # Errors
-/// A rotation that is not finite.
-pub fn anchor_on_all_tags(theta: f64, tags: &[TagPair; 3]) -> Result<Se2, TagError> {
+/// A rotation that is not finite, or no tags.
+pub fn anchor_on_all_tags(theta: f64, tags: &[TagPair]) -> Result<Se2, TagError> {
     check_angle(theta)?;
     let (target, source) = centroids(tags);
+    check_position(target)?;
     Ok(laid_onto(theta, target, source))
 }
 
@@ -50,6 +52,17 @@ pub fn least_squares_transform(tags: &[TagPair], params: &RotationParams) -> Out
     }
 }
 
+/// Root mean square distance of the tags of `pairs` from each other under a transform, metres; NaN
+/// without pairs.
+#[must_use]
+pub fn tag_residual(pairs: &[TagPair], target_from_source: &Se2) -> f64 {
+    let squares = pairs
+        .iter()
+        .map(positions)
+        .map(|(target, source)| (*target_from_source * source - target).norm_squared());
+    (squares.sum::<f64>() / pairs.len() as f64).sqrt()
+}
+
 /// The motion that turns by `theta` and lays `source` onto `target`.
 fn laid_onto(theta: f64, target: Point2<f64>, source: Point2<f64>) -> Se2 {
     Se2::about(source, theta, target - source)
@@ -57,7 +70,7 @@ fn laid_onto(theta: f64, target: Point2<f64>, source: Point2<f64>) -> Se2 {
 
 #[cfg(test)]
 mod tests {
-    use super::{anchor_on_all_tags, anchor_on_best_tag, least_squares_transform};
+    use super::{anchor_on_all_tags, anchor_on_tag, least_squares_transform, tag_residual};
     use crate::fixture::{moved_pairs, pairs_at};
     use crate::{RotationParams, TagError};
     use nalgebra::Point2;
@@ -72,11 +85,21 @@ mod tests {
             ([250.0, 330.0], [248.3384, 132.4811]),
             ([400.0, 300.0], [209.4952, -15.4757]),
         ]);
-        let target_from_source = anchor_on_best_tag(93.4_f64.to_radians(), &tags).unwrap();
+        let target_from_source = anchor_on_tag(93.4_f64.to_radians(), &tags[0]).unwrap();
         let moved = target_from_source * Point2::new(200.0, 150.0);
         assert!((moved - Point2::new(235.378702, 280.707740)).norm() < 1e-6, "{moved}");
         let best = target_from_source * tags[0].source().position;
         assert!((best - tags[0].target().position).norm() < 1e-12);
+    }
+
+    #[test]
+    fn the_residual_is_the_root_mean_square_of_what_is_left() {
+        let tags = pairs_at([([0.3, 0.0], [0.0, 0.0]), ([2.0, 0.4], [2.0, 0.0])]);
+        let residual = tag_residual(&tags, &Se2::identity());
+        assert!((residual - (0.125_f64).sqrt()).abs() < 1e-12, "{residual}");
+        let moved = moved_pairs(Se2::new(5.0, -3.0, 2.0), [[0.0, 1.0], [4.0, 2.0]]);
+        assert!(tag_residual(&moved, &Se2::new(5.0, -3.0, 2.0)) < 1e-12);
+        assert!(tag_residual(&[], &Se2::identity()).is_nan());
     }
 
     #[test]
@@ -87,7 +110,7 @@ mod tests {
             ([2.0, 0.0], [2.0, 0.0]),
             ([0.0, 2.0], [0.0, 2.0]),
         ]);
-        let best = anchor_on_best_tag(0.0, &tags).unwrap().x();
+        let best = anchor_on_tag(0.0, &tags[0]).unwrap().x();
         let all = anchor_on_all_tags(0.0, &tags).unwrap().x();
         assert!((best - 0.03).abs() < 1e-12 && (all - 0.01).abs() < 1e-12);
     }
@@ -95,9 +118,9 @@ mod tests {
     #[test]
     fn a_rotation_that_is_not_finite_is_an_error() {
         let tags = moved_pairs(Se2::identity(), [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]);
-        for anchor in [anchor_on_best_tag, anchor_on_all_tags] {
-            assert!(matches!(anchor(f64::NAN, &tags), Err(TagError::Grid(_))));
-        }
+        assert!(matches!(anchor_on_tag(f64::NAN, &tags[0]), Err(TagError::Grid(_))));
+        assert!(matches!(anchor_on_all_tags(f64::NAN, &tags), Err(TagError::Grid(_))));
+        assert!(matches!(anchor_on_all_tags(0.0, &[]), Err(TagError::Position { .. })));
     }
 
     proptest! {

@@ -11,6 +11,8 @@ use rfid_loc::{FilterParams, TagFilter};
 fn outcomes<const N: usize>(path: fn(f64) -> Point2<f64>, counts: [u32; N]) -> [(f64, f64); N] {
     let noise = Normal::new(0.0, 0.05).expect("a finite sigma");
     let tags = 6;
+    // The model is right here, and believed.
+    let params = FilterParams { check_fit: false, ..FilterParams::default() };
     let mut sums = [(0.0, 0.0); N];
     for tag_id in 0..tags {
         let mut random = ChaCha8Rng::seed_from_u64(11);
@@ -18,8 +20,7 @@ fn outcomes<const N: usize>(path: fn(f64) -> Point2<f64>, counts: [u32; N]) -> [
         let bearing: f64 = random.random_range(0.3..2.8);
         let distance: f64 = random.random_range(0.5..2.0);
         let tag = path(0.45) + distance * Vector2::new(bearing.cos(), bearing.sin());
-        let mut filter =
-            TagFilter::around(path(0.0), &FilterParams::default()).expect("usable parameters");
+        let mut filter = TagFilter::around(path(0.0), &params).expect("usable parameters");
         let mut step = 0;
         for (sums, count) in sums.iter_mut().zip(counts) {
             while step < count {

@@ -5,12 +5,18 @@ use ogm_core::Grid;
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use rand_distr::{Distribution, Normal};
-use rfid_loc::{FilterParams, PositionRule, TagFilter};
+use rfid_loc::{FilterParams, Likelihood, PositionRule, TagFilter};
 
 const SIGMA: f64 = 0.05;
 
 fn corner() -> Point2<f64> {
     Point2::new(-3.0, -3.0)
+}
+
+/// The paper's measurement model, with the corrected reading of the posterior.
+fn gaussian() -> FilterParams {
+    let likelihood = Likelihood::Gaussian;
+    FilterParams { side_cells: 300, likelihood, check_fit: false, ..FilterParams::default() }
 }
 
 fn noisy_circle(count: u32, tag: Point2<f64>, seed: u64) -> Vec<(Point2<f64>, f64)> {
@@ -58,7 +64,7 @@ fn largest_difference(a: &Grid<f64>, b: &Grid<f64>) -> f64 {
 fn t_r1_four_corners_locate_a_tag_in_its_cell() {
     let tag = Point2::new(1.01, 0.73);
     let lower_left = Point2::new(-2.0, -2.0);
-    let mut filter = TagFilter::new(lower_left, &FilterParams::default()).unwrap();
+    let mut filter = TagFilter::new(lower_left, &gaussian()).unwrap();
     let mut repeats = 0;
     for (until, certainty) in [(1, 0.3721), (5, 0.9175), (10, 0.9952)] {
         while repeats < until {
@@ -78,7 +84,7 @@ fn t_r1_four_corners_locate_a_tag_in_its_cell() {
 
 #[test]
 fn t_r2_three_thousand_readings_underflow_the_product_and_not_the_filter() {
-    let params = FilterParams { side_cells: 150, cell_size: 0.04, ..FilterParams::default() };
+    let params = FilterParams { side_cells: 150, cell_size: 0.04, ..gaussian() };
     let tag = Point2::new(0.5, -0.4);
     let readings = noisy_circle(3000, tag, 2);
     let filter = filtered(&readings, &params);
@@ -111,7 +117,7 @@ fn t_r3_a_straight_path_leaves_two_mirror_images() {
         .map(|step| Point2::new(-1.5 + 0.01 * f64::from(step), 0.0))
         .map(|robot| (robot, (tag - robot).norm() + noise.sample(&mut random)))
         .collect();
-    let filter = filtered(&readings, &FilterParams::default());
+    let filter = filtered(&readings, &gaussian());
     let estimate = filter.estimate(1).unwrap();
     assert!(estimate.certainty < 0.55, "{}", estimate.certainty);
     assert!(estimate.second_peak_ratio > 0.99, "{}", estimate.second_peak_ratio);
@@ -126,7 +132,7 @@ fn t_r3_a_straight_path_leaves_two_mirror_images() {
 
 #[test]
 fn single_precision_sums_agree_with_double_ones() {
-    let params = FilterParams { side_cells: 40, ..FilterParams::default() };
+    let params = FilterParams { side_cells: 40, ..gaussian() };
     let tag = Point2::new(0.3, 0.2);
     for count in [300, 2000] {
         // Offsets of three sigma either way make the costs ten times larger.
@@ -163,21 +169,50 @@ fn far_from_the_map_origin_a_tag_is_found_as_precisely() {
 }
 
 #[test]
-fn around_aligns_the_area_to_the_map_and_holds_every_tag_in_range() {
+fn around_aligns_the_area_to_the_map() {
     let params = FilterParams::default();
     for (x, y) in [(0.0, 0.0), (1.237, -8.881), (-0.001, 12.019)] {
         let robot = Point2::new(x, y);
         let frame = TagFilter::around(robot, &params).unwrap().frame();
-        assert_eq!(frame.lattice_cell(robot), [150, 150]);
+        assert_eq!(frame.lattice_cell(robot), [163, 163]);
         let corner = frame.map_from_grid().translation() / params.cell_size;
         assert!((corner - corner.map(f64::round)).norm() < 1e-9, "{corner}");
     }
 }
 
 #[test]
+fn a_tag_first_read_straight_ahead_at_the_longest_range_lies_inside() {
+    for (max_range, sigma) in [(3.0, 0.05), (8.0, 0.1), (20.0, 0.5)] {
+        let params = FilterParams::for_reader(max_range, sigma);
+        let noise = Normal::new(0.0, sigma).unwrap();
+        for (seed, ahead) in [(1, Vector2::x()), (2, -Vector2::x()), (3, Vector2::y())] {
+            let mut random = ChaCha8Rng::seed_from_u64(seed);
+            let tag = Point2::origin() + max_range * ahead;
+            let mut filter = TagFilter::around(Point2::origin(), &params).unwrap();
+            // A bow towards the tag, so that it is told from its mirror image.
+            for step in 0..150 {
+                let way = max_range / 150.0 * f64::from(step);
+                let bow =
+                    Vector2::new(-ahead.y, ahead.x) * 0.5 * max_range * (way / max_range).sin();
+                let robot = Point2::origin() + way * ahead + bow;
+                let read = (tag - robot).norm() + noise.sample(&mut random);
+                let limit = max_range + 4.0 * sigma;
+                filter.update(robot, read.clamp(0.0, limit)).unwrap();
+            }
+            let estimate = filter.estimate(1).unwrap();
+            assert!(!estimate.touches_border, "{max_range} m: {estimate:?}");
+            assert!((estimate.position - tag).norm() < 2.0 * params.cell_size, "{estimate:?}");
+        }
+    }
+    let robot = Point2::origin();
+    let frame = TagFilter::around(robot, &FilterParams::paper()).unwrap().frame();
+    assert_eq!(frame.lattice_cell(robot), [150, 150], "the paper's 3 m end on the border");
+}
+
+#[test]
 fn the_mode_is_a_cell_centre_and_the_paper_reports_it() {
     let readings = noisy_circle(200, Point2::new(0.7, 0.5), 4);
-    let filter = filtered(&readings, &FilterParams::default());
+    let filter = filtered(&readings, &gaussian());
     let estimate = filter.estimate(1).unwrap();
     let cells = filter.frame().cells_from_point(estimate.mode);
     assert!((cells - cells.map(|x| x.floor() + 0.5)).norm() < 1e-6);
@@ -199,5 +234,23 @@ fn a_tag_outside_the_search_area_touches_its_border() {
         }
         let estimate = filter.estimate(1).unwrap();
         assert_eq!(estimate.touches_border, outside, "{estimate:?}");
+    }
+}
+
+#[test]
+fn the_border_is_two_cells_wide() {
+    let params = FilterParams { side_cells: 150, ..gaussian() };
+    let lower_left = Point2::new(-1.5, -1.5);
+    for (cells_inside, touches) in [(1.5, true), (2.5, false)] {
+        let tag = Point2::new(0.01, 1.5 - cells_inside * params.cell_size);
+        let mut filter = TagFilter::new(lower_left, &params).unwrap();
+        for step in 0..120 {
+            let angle = 0.05 * f64::from(step);
+            let robot = Point2::new(angle.cos(), angle.sin());
+            filter.update(robot, (tag - robot).norm()).unwrap();
+        }
+        let estimate = filter.estimate(1).unwrap();
+        assert!((estimate.mode - tag).norm() < 1e-6, "{estimate:?}");
+        assert_eq!(estimate.touches_border, touches, "{cells_inside} cells");
     }
 }

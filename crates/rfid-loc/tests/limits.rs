@@ -43,7 +43,7 @@ fn parameters_that_describe_no_filter_are_errors() {
         FilterParams { max_range: -1.0, ..good },
         FilterParams { max_range: f64::NAN, ..good },
         FilterParams { sub_sampling: 0, ..good },
-        FilterParams { sub_sampling: 301, ..good },
+        FilterParams { sub_sampling: 327, ..good },
         FilterParams { side_cells: 0, ..good },
     ] {
         for filter in [TagFilter::new(corner(), &bad), TagFilter::around(corner(), &bad)] {

@@ -3,6 +3,7 @@
 
 mod metamorphic;
 mod numbered;
+mod plain;
 mod refusals;
 mod start;
 mod walls;

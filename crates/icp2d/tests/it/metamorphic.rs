@@ -5,7 +5,7 @@ use nalgebra::{Point2, Vector2};
 use ogm_core::{ClassThresholds, GridFrame, Length, OccupancyGrid, Se2};
 use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 
-use crate::walls::{distance, floor, found, moved, set};
+use crate::walls::{distance, floor, found, in_cells, moved, set};
 
 /// Cells. The starts below are off by at least 5; points of equal spacing can hold the
 /// point-to-point metric within one cell of the truth.
@@ -28,7 +28,7 @@ fn floors() -> (WallPoints, WallPoints) {
 }
 
 fn run(target: &WallPoints, source: &WallPoints, start: Se2, metric: Metric) -> Alignment {
-    let params = IcpParams { metric, ..IcpParams::paper() };
+    let params = IcpParams { metric, ..in_cells() };
     found(align(target, source, start, &params).unwrap())
 }
 
@@ -117,10 +117,10 @@ fn gates_change_how_many_points_pair() {
     let source = set([floor(), extra].concat());
     let run = |first: Length, last: Length| {
         let params = IcpParams {
-            initial_gate: first,
-            final_gate: last,
+            initial_correspondence_distance: first,
+            max_correspondence_distance: last,
             pairing: Pairing::OneWay,
-            ..IcpParams::paper()
+            ..in_cells()
         };
         found(align(&target, &source, Se2::identity(), &params).unwrap())
     };
@@ -128,8 +128,11 @@ fn gates_change_how_many_points_pair() {
     let wide = run(Length::cells(25.0), Length::cells(25.0));
     let none = run(Length::metres(f64::INFINITY), Length::metres(f64::INFINITY));
     assert!(distance(narrow.target_from_source, Se2::identity()) < EXACT);
-    assert!(narrow.pairs < wide.pairs && wide.pairs <= none.pairs);
-    assert_eq!(none.pairs, source.points().len());
+    assert!(
+        narrow.correspondences < wide.correspondences
+            && wide.correspondences <= none.correspondences
+    );
+    assert_eq!(none.correspondences, source.points().len());
 }
 
 #[test]
@@ -166,6 +169,6 @@ fn maps_align_whatever_the_pose_of_their_origin() {
 #[test]
 fn equal_input_gives_equal_bits() {
     let (target, source) = (set(floor()), set(moved(&floor(), Se2::new(2.0, 1.0, 0.01))));
-    let run = || align(&target, &source, Se2::identity(), &IcpParams::paper()).unwrap();
+    let run = || align(&target, &source, Se2::identity(), &in_cells()).unwrap();
     assert_eq!(run(), run());
 }

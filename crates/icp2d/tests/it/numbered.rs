@@ -6,7 +6,7 @@ use ogm_core::Se2;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
-use crate::walls::{found, room, set, wall};
+use crate::walls::{found, in_cells, room, set, wall};
 
 #[test]
 fn t_i1_the_printed_order_needs_the_converted_translation() {
@@ -53,7 +53,7 @@ fn t_i2_random_points_are_recovered_to_rounding() {
             .collect();
         let target = set(crate::walls::moved(&source, truth));
         let start = Se2::identity();
-        let found = found(align(&target, &set(source), start, &IcpParams::paper()).unwrap());
+        let found = found(align(&target, &set(source), start, &in_cells()).unwrap());
         assert!(found.termination.is_converged(), "seed {seed}: {found:?}");
         let error = (found.target_from_source.translation() - truth.translation()).norm();
         let turned = (found.target_from_source.theta() - truth.theta()).abs();
@@ -74,7 +74,7 @@ fn t_i3_along_a_corridor_the_start_is_kept() {
     let start = Se2::about(centre, 0.5_f64.to_radians(), direction * 3.3 + normal * 2.0);
     let walls = set(corridor);
     for metric in [Metric::PointToPoint, Metric::PointToLine] {
-        let params = IcpParams { metric, ..IcpParams::paper() };
+        let params = IcpParams { metric, ..in_cells() };
         let found = found(align(&walls, &walls, start, &params).unwrap());
         let unobservable = found.unobservable.unwrap();
         assert!(unobservable.dot(&direction).abs() > 1.0 - 1e-9, "{unobservable}");
@@ -100,7 +100,8 @@ fn right_faces() -> Vec<WallPoint> {
 }
 
 fn shift_from_truth(target: Vec<WallPoint>, pairing: Pairing) -> f64 {
-    let params = IcpParams { pairing, ..IcpParams::paper() };
+    // The printed numbers are those of point to point.
+    let params = IcpParams { pairing, metric: Metric::PointToPoint, ..in_cells() };
     let start = Se2::identity();
     let outcome = align(&set(target), &set(left_faces()), start, &params).unwrap();
     found(outcome).target_from_source.translation().norm()

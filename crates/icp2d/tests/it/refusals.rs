@@ -4,10 +4,10 @@ use icp2d::{IcpError, IcpParams, Pairing, Termination, WallPoint, WallPoints, al
 use nalgebra::{Point2, Vector2};
 use ogm_core::{Length, Refusal, Se2};
 
-use crate::walls::{floor, found, moved, set, wall};
+use crate::walls::{floor, found, in_cells, moved, set, wall};
 
 fn refusal(target: Vec<WallPoint>, source: Vec<WallPoint>) -> Refusal {
-    let outcome = align(&set(target), &set(source), Se2::identity(), &IcpParams::paper()).unwrap();
+    let outcome = align(&set(target), &set(source), Se2::identity(), &in_cells()).unwrap();
     outcome.refusal().unwrap().clone()
 }
 
@@ -35,7 +35,7 @@ fn too_few_points_are_refused() {
 #[test]
 fn a_search_that_runs_away_gives_back_its_start() {
     let start = Se2::new(8.3, 0.4, 0.0);
-    let params = IcpParams { max_translation: Length::cells(4.0), ..IcpParams::paper() };
+    let params = IcpParams { max_translation: Length::cells(4.0), ..in_cells() };
     let floor = set(floor());
     let found = found(align(&floor, &floor, start, &params).unwrap());
     assert_eq!(found.target_from_source, start);
@@ -48,7 +48,7 @@ fn a_search_that_runs_away_gives_back_its_start() {
 
 #[test]
 fn the_last_iteration_is_not_convergence() {
-    let params = IcpParams { max_iterations: 2, ..IcpParams::paper() };
+    let params = IcpParams { max_iterations: 2, ..in_cells() };
     let floor = set(floor());
     let found = found(align(&floor, &floor, Se2::new(5.0, 3.0, 0.02), &params).unwrap());
     assert_eq!(found.termination, Termination::IterationLimit);
@@ -73,17 +73,23 @@ fn numbers_that_cannot_be_meant_are_errors() {
 
     let floor = set(floor());
     let start = Se2::new(0.0, f64::NAN, 0.0);
-    let error = align(&floor, &floor, start, &IcpParams::paper()).unwrap_err();
+    let error = align(&floor, &floor, start, &in_cells()).unwrap_err();
     assert!(matches!(error, IcpError::Grid(_)));
 
-    let paper = IcpParams::paper();
+    let paper = in_cells();
     let wrong = [
-        ("gate_factor", IcpParams { gate_factor: 1.0, ..paper }),
-        ("final_gate", IcpParams { final_gate: Length::metres(f64::NAN), ..paper }),
-        ("final_gate", IcpParams { initial_gate: Length::metres(f64::INFINITY), ..paper }),
-        ("min_pairs", IcpParams { min_pairs: 1, ..paper }),
+        ("distance_factor", IcpParams { distance_factor: 1.0, ..paper }),
+        (
+            "max_correspondence_distance",
+            IcpParams { max_correspondence_distance: Length::metres(f64::NAN), ..paper },
+        ),
+        (
+            "max_correspondence_distance",
+            IcpParams { initial_correspondence_distance: Length::metres(f64::INFINITY), ..paper },
+        ),
+        ("min_correspondences", IcpParams { min_correspondences: 1, ..paper }),
         ("pairing", IcpParams { pairing: Pairing::Trimmed(0.0), ..paper }),
-        ("stop_rotation", IcpParams { stop_rotation: -1.0, ..paper }),
+        ("rotation_epsilon", IcpParams { rotation_epsilon: -1.0, ..paper }),
     ];
     for (expected, params) in wrong {
         match align(&floor, &floor, Se2::identity(), &params) {
@@ -97,6 +103,6 @@ fn numbers_that_cannot_be_meant_are_errors() {
 fn a_start_beyond_all_bounds_is_refused_and_does_not_overflow() {
     let floor = set(floor());
     let start = Se2::new(1e300, -1e300, 1.0);
-    let outcome = align(&floor, &floor, start, &IcpParams::paper()).unwrap();
+    let outcome = align(&floor, &floor, start, &in_cells()).unwrap();
     assert!(matches!(outcome.refusal(), Some(Refusal::TooFewPairs { .. })));
 }

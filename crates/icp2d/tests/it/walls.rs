@@ -1,8 +1,21 @@
 //! Walls to align.
 
-use icp2d::{Alignment, WallPoint, WallPoints};
+use icp2d::{Alignment, IcpParams, WallPoint, WallPoints};
 use nalgebra::{Point2, Vector2};
-use ogm_core::{Outcome, Se2};
+use ogm_core::{Length, Outcome, Se2};
+
+/// The defaults as they are on a map of 0.02 m a cell, for maps of 1 m a cell.
+pub(crate) fn in_cells() -> IcpParams {
+    IcpParams {
+        section_margin: Length::cells(25.0),
+        initial_correspondence_distance: Length::cells(25.0),
+        max_correspondence_distance: Length::cells(5.0),
+        reciprocity: Length::cells(1.5),
+        translation_epsilon: Length::cells(0.002),
+        max_translation: Length::cells(50.0),
+        ..IcpParams::default()
+    }
+}
 
 /// Points at whole steps of 1 from `from` to `to`, both included.
 pub(crate) fn wall(

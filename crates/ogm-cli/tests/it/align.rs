@@ -93,6 +93,25 @@ fn three_good_tags_make_auto_the_third_method() {
 }
 
 #[test]
+fn a_reading_beyond_the_readers_range_is_counted_and_a_longer_range_takes_it() {
+    let folder = tempdir().unwrap();
+    let log = fs::read_to_string(fixtures().join("source.tags.csv")).unwrap();
+    let last = log.lines().last().unwrap();
+    let far = format!("{},3.9\n", last.rsplit_once(',').unwrap().0);
+    fs::write(folder.path().join("s.csv"), log + &far).unwrap();
+    let tags = "--tags {F}/target.yaml={F}/target.tags.csv --tags {F}/source.yaml={T}/s.csv";
+    let command = format!("align {{F}}/target.yaml {{F}}/source.yaml --json {tags}");
+    let warnings = |options: &str| {
+        let found = json(0, folder.path(), &format!("{command} {options}"));
+        assert_eq!(found["method"], "rfid3");
+        assert_close(&found);
+        found["warnings"].to_string()
+    };
+    assert!(warnings("").contains("1 of "), "{}", warnings(""));
+    assert_eq!(warnings("--tag-range 4"), "[]");
+}
+
+#[test]
 fn too_few_tags_leave_auto_with_the_maps_and_refuse_the_method_by_tags() {
     let folder = tempdir().unwrap();
     let log = "tag_id,robot_x_m,robot_y_m,range_m\n1,0.0,0.0,1.0\n";

@@ -69,7 +69,7 @@ fn a_bad_tag_log_is_named_with_its_line() {
     for (log, complaint) in [
         ("tag,x,y,r\n".to_owned(), "line 1"),
         (format!("{header}1,0,0,nan\n"), "line 2: range_m is \"nan\""),
-        (format!("{header}1,0,0,99\n"), "99"),
+        (format!("{header}1,0,0,99\n"), "--tag-range"),
     ] {
         fs::write(folder.path().join("t.csv"), log).unwrap();
         let command = format!("align {{F}}/target.yaml {{F}}/source.yaml {tags}");

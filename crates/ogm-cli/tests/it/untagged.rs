@@ -7,7 +7,7 @@ use serde_json::Value;
 use tempfile::{TempDir, tempdir};
 
 use crate::align::assert_close;
-use crate::{draw, fixtures, json, pose, read, truth};
+use crate::{draw, fixtures, json, ogm, pose, read, truth};
 
 /// What a method without probabilities says of maps that match.
 #[track_caller]
@@ -53,6 +53,20 @@ fn a_walk_aligns_maps_near_a_rough_prior_and_from_their_middles() {
         assert_reported(found, "carpin", 3);
     }
     assert_ne!(middles["target_from_source"], prior["target_from_source"], "another walk");
+}
+
+#[test]
+fn the_papers_picture_distance_can_be_asked_for() {
+    let folder = tempdir().unwrap();
+    let maps = "align {F}/target.yaml {F}/source.yaml --json --method carpin --prior -6,-5.5,-20 \
+                --prior-sigma 0.5,5";
+    // The overlap is the default and believed; the other may be refused.
+    let overlap = json(0, folder.path(), &format!("{maps} --objective overlap"));
+    assert_eq!(overlap["target_from_source"], json(0, folder.path(), maps)["target_from_source"]);
+    let picture = ogm(folder.path(), &format!("{maps} --objective picture"));
+    let picture: Value = serde_json::from_slice(&picture.stdout).unwrap();
+    let first = |found: &Value| found["stages"]["walks"][0]["psi"].as_f64().unwrap();
+    assert_ne!(first(&picture), first(&overlap));
 }
 
 /// A walk always ends somewhere.

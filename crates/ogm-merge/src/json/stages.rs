@@ -33,6 +33,8 @@ impl From<&Stages> for StagesJson {
 #[derive(Serialize)]
 struct TagsJson {
     common_tags: usize,
+    tag_fit_residual_m: Option<f64>,
+    tag_residual_m: Option<f64>,
     rotation_by_tags_deg: Option<f64>,
     /// Straight walls of the target, then of the source.
     wall_segments: Option<[usize; 2]>,
@@ -51,6 +53,8 @@ impl From<&TagEvidence> for TagsJson {
         let walls = seen.walls.as_ref();
         Self {
             common_tags: seen.common_tags.len(),
+            tag_fit_residual_m: seen.tag_fit_residual,
+            tag_residual_m: seen.tag_residual,
             rotation_by_tags_deg: seen.tag_rotation.map(|tags| tags.angle.to_degrees()),
             wall_segments: walls
                 .map(|walls| walls.each_ref().map(|map| map.extraction.segments.len())),

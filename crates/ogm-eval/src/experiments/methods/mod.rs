@@ -30,7 +30,16 @@ unrotated centroids gives; that is plausible, not proven.
 
 Before it refines, the default #3 looks up to 1 m and 5° around the result of #2 for a place where \
 more walls agree. The paper does not; \"#3 from where #2 ends\" and the rows below it leave that \
-out. #3 also refuses an answer under which less than 45 % of the common walls agree.
+out. Where the walls have no clear direction, or tags and walls differ by more than 10°, it refines \
+the tags' own rotation too. \"two tags\" is #3 from the two surest tags (the paper's future work), \
+\"#1b + ICP\" refines the least-squares fit of the tags without looking for walls (its conclusions).
+
+Every method refuses an answer that its own evidence speaks against: tags that no rigid motion \
+brings together within 0.75 m, tags that lie apart under the answer, and less than 45 % of the \
+common walls in agreement under it, or around it where it is not refined. #1 with tags that are off \
+by 10 px is often refused so; the unguarded rows say what it would have answered. The rows paper() \
+hold what is printed throughout: ICP over all nearest neighbours without a gate comes to rest \
+far from the truth where the maps overlap in part.
 
 match is ours and looks at the maps alone, without tags or a start, so it has one row for all regimes.";
 
@@ -48,6 +57,7 @@ pub(crate) fn measure(options: &Options) -> anyhow::Result<Measured> {
             tables::times(&timings),
             tables::variants(&runs, Building::Random),
             tables::variants(&runs, Building::PlanA),
+            tables::strangers(&runs),
             tables::failures(&runs),
         ],
         figures,

@@ -1,5 +1,7 @@
 //! What the rows of X4 are called and how they are grouped.
 
+use ogm_core::Refusal;
+
 use crate::cases::worlds::Building;
 use crate::judge::PIXEL;
 use crate::measured::{Run, RunResult};
@@ -10,6 +12,19 @@ pub(super) const REGIMES: [f64; 4] = [0.0, 2.0, 5.0, 10.0];
 
 /// The method that looks at the maps alone. It runs once a world, whatever the tags.
 pub(super) const MATCH: &str = "match";
+
+/// Method #3 from two tags.
+pub(super) const TWO_TAGS: &str = "two tags";
+
+/// The presets that say what the paper prints.
+pub(super) const PRINTED_1: &str = "#1 paper()";
+pub(super) const LITERAL: &str = "#3 paper()";
+
+/// The reading of #1 that comes nearest to what the paper reports.
+pub(super) const CROPPED_1: &str = "#1 cropped image, turned about its centre, sign repaired";
+
+/// Two robots in different buildings whose tags have equal ids.
+pub(super) const NEGATIVES: &str = "different buildings, equal tag ids";
 
 /// Mean squared error and mean time that the paper prints for each method.
 pub(super) const TABLE_4: [(&str, &str, &str); 3] =
@@ -61,6 +76,21 @@ impl<'a> Cell<'a> {
 
     pub(super) fn refused(&self) -> usize {
         self.runs.iter().filter(|run| matches!(run.result, RunResult::Refused(_))).count()
+    }
+
+    /// Refused for want of tags that are known well enough.
+    pub(super) fn without_tags(&self) -> usize {
+        let lacks_tags = |run: &&&Run| {
+            let RunResult::Refused(refusal) = &run.result else { return false };
+            matches!(refusal, Refusal::TooFewTags { .. } | Refusal::LowCertainty { .. })
+        };
+        self.runs.iter().filter(lacks_tags).count()
+    }
+
+    /// Answers where there is none.
+    pub(super) fn false_merges(&self) -> Vec<u64> {
+        let is_false = |run: &&&Run| matches!(run.result, RunResult::FalseMerge);
+        self.runs.iter().filter(is_false).map(|run| run.seed).collect()
     }
 
     pub(super) fn summary(&self) -> Option<Summary> {

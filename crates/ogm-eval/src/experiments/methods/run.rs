@@ -5,17 +5,17 @@ use std::time::Instant;
 use grid_match::{MatchParams, match_maps};
 use ogm_core::Se2;
 use ogm_merge::{RobotMap, align_by_tags};
-use rayon::iter::{IntoParallelIterator, ParallelIterator};
+use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
-use super::record::{MATCH, REGIMES, case_name, case_without_tags};
-use super::variants::VARIANTS;
+use super::record::{MATCH, NEGATIVES, REGIMES, case_name, case_without_tags};
+use super::variants::{METHODS, VARIANTS};
 use crate::cases::worlds::{Building, World};
-use crate::judge::Overlap;
+use crate::judge::{Overlap, TransformError};
 use crate::measured::{Run, RunResult, Timing};
 use crate::options::Options;
 
-/// How many of the variants, from the front, are the defaults of #1, #2 and #3.
-const DEFAULT_VARIANTS: usize = 3;
+/// Worlds in memory at once; the robots of neighbours are also set against each other.
+const TOGETHER: usize = 10;
 
 /// Worlds of plan A, shown apart.
 const PLAN_A_WORLDS: u64 = 10;
@@ -27,12 +27,24 @@ pub(super) fn run(options: &Options) -> anyhow::Result<(Vec<Run>, Vec<Timing>)> 
     let of_plan_a = PLAN_A_WORLDS.min(options.count(3, 200));
     options.watch.begin("X4 worlds", worlds + of_plan_a);
     let run_worlds = |building, count: u64, of_variants: u64| {
-        let measured = (0..count).into_par_iter().map(|index| {
-            let measured = run_world(building, options.seed + index, index < of_variants);
-            options.watch.step();
-            measured
-        });
-        measured.collect::<anyhow::Result<Vec<(Vec<Run>, Vec<Timing>)>>>()
+        let mut measured = Vec::new();
+        let seeds: Vec<u64> = (0..count).map(|index| options.seed + index).collect();
+        for seeds in seeds.chunks(TOGETHER) {
+            let worlds = seeds.par_iter().map(|&seed| World::simulate(building, seed));
+            let worlds = worlds.collect::<anyhow::Result<Vec<World>>>()?;
+            let runs = worlds.par_iter().enumerate().map(|(index, world)| {
+                let all_variants = world.seed - options.seed < of_variants;
+                let mut measured = run_world(building, world, all_variants)?;
+                let next = &worlds[(index + 1) % worlds.len()];
+                if next.seed != world.seed && matches!(building, Building::Random) {
+                    measured.0.extend(run_strangers(world, next)?);
+                }
+                options.watch.step();
+                Ok(measured)
+            });
+            measured.extend(runs.collect::<anyhow::Result<Vec<(Vec<Run>, Vec<Timing>)>>>()?);
+        }
+        anyhow::Ok(measured)
     };
     let random = run_worlds(Building::Random, worlds, of_variants.into())?;
     let plan_a = run_worlds(Building::PlanA, of_plan_a, of_plan_a)?;
@@ -41,23 +53,42 @@ pub(super) fn run(options: &Options) -> anyhow::Result<(Vec<Run>, Vec<Timing>)> 
     Ok((runs.concat(), timings.concat()))
 }
 
+/// Every method on the target of one world and the source of another.
+fn run_strangers(world: &World, other: &World) -> anyhow::Result<Vec<Run>> {
+    let target = RobotMap { map: &world.pair.target.map, tags: &world.target_tags };
+    let source = RobotMap { map: &other.pair.source.map, tags: &other.source_tags };
+    let mut runs = Vec::new();
+    for variant in &VARIANTS[..METHODS] {
+        let params = (variant.params)(world);
+        let report = align_by_tags(variant.method, &target, &source, &params, &())?;
+        runs.push(Run {
+            experiment: "X4",
+            case: NEGATIVES.to_owned(),
+            variant: variant.name.to_owned(),
+            seed: world.seed,
+            result: RunResult::of(&report.outcome, None::<fn(&Se2) -> TransformError>),
+        });
+    }
+    Ok(runs)
+}
+
 fn run_world(
     building: Building,
-    seed: u64,
+    world: &World,
     all_variants: bool,
 ) -> anyhow::Result<(Vec<Run>, Vec<Timing>)> {
-    let world = World::simulate(building, seed)?;
+    let seed = world.seed;
     let overlap =
         Overlap::new(&world.pair.target.map, &world.pair.source.map, world.target_from_source());
     let errors = Some(|target_from_source: &Se2| overlap.errors(target_from_source));
-    let variants = if all_variants { &VARIANTS[..] } else { &VARIANTS[..DEFAULT_VARIANTS] };
+    let variants = if all_variants { &VARIANTS[..] } else { &VARIANTS[..METHODS] };
     let (mut runs, mut timings) = (Vec::new(), Vec::new());
     for sigma_px in REGIMES {
         let [target_tags, source_tags] = world.displaced_tags(sigma_px);
         let target = RobotMap { map: &world.pair.target.map, tags: &target_tags };
         let source = RobotMap { map: &world.pair.source.map, tags: &source_tags };
         for variant in variants {
-            let params = (variant.params)(&world);
+            let params = (variant.params)(world);
             let start = Instant::now();
             let report = align_by_tags(variant.method, &target, &source, &params, &())?;
             let milliseconds = start.elapsed().as_secs_f64() * 1e3;

@@ -2,14 +2,14 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use super::record::{Cell, MATCH, REGIMES, TABLE_4, case_name, case_without_tags};
-use super::variants::VARIANTS;
+use super::record::{Cell, MATCH, NEGATIVES, REGIMES, TABLE_4, case_name, case_without_tags};
+use super::variants::{VARIANTS, methods};
 use crate::cases::worlds::Building;
 use crate::judge::{METHOD_3, SAME_WALLS};
 use crate::measured::{Run, RunResult, Timing};
 use crate::options::Options;
 use crate::report::{Table, format};
-use crate::stats::{Summary, student_half_width};
+use crate::stats::{Share, Summary, student_half_width};
 
 pub(super) fn table_4(options: &Options, runs: &[Run]) -> Table {
     let mut rows = Vec::new();
@@ -17,6 +17,9 @@ pub(super) fn table_4(options: &Options, runs: &[Run]) -> Table {
         let case = case_name(Building::Random, sigma_px);
         rows.extend(
             TABLE_4.map(|(variant, paper, _)| result(options, runs, &case, variant, paper)),
+        );
+        rows.extend(
+            methods()[TABLE_4.len()..].iter().map(|name| result(options, runs, &case, name, "–")),
         );
     }
     rows.push(result(options, runs, &case_without_tags(Building::Random), MATCH, "–"));
@@ -108,14 +111,15 @@ pub(super) fn times(timings: &[Timing]) -> Table {
 pub(super) fn variants(runs: &[Run], building: Building) -> Table {
     let shown = |case: &str, variant: &str| {
         let cell = Cell::new(runs, case, variant);
+        let counts = format!("{} − {}", cell.len(), cell.refused());
         match (cell.summary(), Summary::of(&cell.mse_nn())) {
             (Some(disp), Some(nn)) => format!(
-                "{} / {} / {}",
+                "{} / {} / {} ({counts})",
                 format::px2(disp.mean),
                 format::px2(disp.median),
                 format::px2(nn.mean)
             ),
-            _ => "–".to_owned(),
+            _ => format!("– ({counts})"),
         }
     };
     let rows = VARIANTS.iter().map(|variant| {
@@ -130,14 +134,40 @@ pub(super) fn variants(runs: &[Run], building: Building) -> Table {
     };
     Table {
         caption: format!(
-            "All variants on {name}: mean mse_disp / median mse_disp / mean mse_nn, px². The \
-             printed forms of #1 depend on the frame's origin: that of the start pose unless said. \
-             {MATCH} takes no tags."
+            "All variants on {name}: mean mse_disp / median mse_disp / mean mse_nn, px² (runs − \
+             refused). Unguarded and as printed, no answer is refused for what tags or walls say \
+             about it. The printed forms of #1 depend on the frame's origin: that of the start pose \
+             unless said. {MATCH} takes no tags."
         ),
         header: ["variant", "tags as localised", "+ 2 px", "+ 5 px", "+ 10 px"]
             .map(str::to_owned)
             .to_vec(),
         rows: rows.chain([matched]).collect(),
+    }
+}
+
+/// Every method on robots that were in different buildings.
+pub(super) fn strangers(runs: &[Run]) -> Table {
+    let row = |variant: &&'static str| {
+        let cell = Cell::new(runs, NEGATIVES, variant);
+        let merged = cell.false_merges();
+        let seeds: Vec<String> = merged.iter().map(u64::to_string).collect();
+        let (low, high) = Share { hits: merged.len(), of: cell.len() }.ci95();
+        vec![
+            (*variant).to_owned(),
+            cell.len().to_string(),
+            merged.len().to_string(),
+            format!("{:.1}–{:.1} %", 100.0 * low, 100.0 * high),
+            if seeds.is_empty() { "–".to_owned() } else { seeds.join(", ") },
+        ]
+    };
+    Table {
+        caption:
+            "Different buildings whose tags have equal ids: each world's first robot with the \
+                  second of the next. Every merge is wrong."
+                .to_owned(),
+        header: ["method", "pairs", "merged", "95 % interval", "seeds"].map(str::to_owned).to_vec(),
+        rows: methods().iter().map(row).collect(),
     }
 }
 

@@ -1,11 +1,12 @@
 //! The rows of X4: each method in its forms, corrected and as printed.
 
-use icp2d::{IcpParams, Pairing};
+use icp2d::{IcpParams, Metric, Pairing};
 use nalgebra::Point2;
-use ogm_core::{Length, OccupancyGrid};
+use ogm_core::OccupancyGrid;
 use ogm_merge::{Anchor, RfidParams, TagMethod};
 use rfid_loc::{RotationCentre, TagFrame, TagOnlyParams, TagOnlyRotation, TagOnlyTranslation};
 
+use super::record::{CROPPED_1, LITERAL, PRINTED_1, TWO_TAGS};
 use crate::cases::worlds::World;
 
 /// A row of the table: a method in one of its forms.
@@ -15,20 +16,27 @@ pub(super) struct Variant {
     pub(super) params: fn(&World) -> RfidParams,
 }
 
-/// The defaults first.
-pub(super) const VARIANTS: [Variant; 16] = [
+/// How many of the variants, from the front, are methods as the command has them.
+pub(super) const METHODS: usize = 6;
+
+/// The methods first.
+pub(super) const VARIANTS: [Variant; 23] = [
     Variant { name: "#1", method: TagMethod::Rfid1, params: |_| RfidParams::default() },
     Variant { name: "#2", method: TagMethod::Rfid2, params: |_| RfidParams::default() },
     Variant { name: "#3", method: TagMethod::Rfid3, params: |_| RfidParams::default() },
+    Variant { name: "#1b", method: TagMethod::Rfid1b, params: |_| RfidParams::default() },
+    Variant { name: TWO_TAGS, method: TagMethod::TwoTags, params: |_| RfidParams::default() },
+    Variant { name: "#1b + ICP", method: TagMethod::TagsIcp, params: |_| RfidParams::default() },
+    Variant { name: "#1 unguarded", method: TagMethod::Rfid1, params: |_| RfidParams::unguarded() },
+    Variant { name: "#2 unguarded", method: TagMethod::Rfid2, params: |_| RfidParams::unguarded() },
+    Variant { name: "#3 unguarded", method: TagMethod::Rfid3, params: |_| RfidParams::unguarded() },
+    Variant { name: PRINTED_1, method: TagMethod::Rfid1, params: |_| RfidParams::paper() },
+    Variant { name: "#2 paper()", method: TagMethod::Rfid2, params: |_| RfidParams::paper() },
+    Variant { name: LITERAL, method: TagMethod::Rfid3, params: |_| RfidParams::paper() },
     Variant {
         name: "#1 with tags 1 and 2",
         method: TagMethod::Rfid1,
         params: |_| tag_only(TagOnlyParams { rotation: TagOnlyRotation::P2, ..Default::default() }),
-    },
-    Variant {
-        name: "#1b least squares",
-        method: TagMethod::Rfid1b,
-        params: |_| RfidParams::default(),
     },
     Variant {
         name: "#1 rotation as printed",
@@ -58,18 +66,7 @@ pub(super) const VARIANTS: [Variant; 16] = [
         },
     },
     Variant {
-        name: "#1 all as printed",
-        method: TagMethod::Rfid1,
-        params: |_| {
-            tag_only(TagOnlyParams {
-                rotation: TagOnlyRotation::AsPrinted,
-                translation: TagOnlyTranslation::AsPrinted,
-                ..Default::default()
-            })
-        },
-    },
-    Variant {
-        name: "#1 cropped image, turned about its centre, sign repaired",
+        name: CROPPED_1,
         method: TagMethod::Rfid1,
         params: |world| {
             tag_only(TagOnlyParams {
@@ -91,18 +88,23 @@ pub(super) const VARIANTS: [Variant; 16] = [
                 weights: ogm_vector::Weights::AsPrinted,
                 ..Default::default()
             },
-            ..Default::default()
+            ..RfidParams::unguarded()
         },
     },
     Variant {
         name: "#2 all three tags carry the translation",
         method: TagMethod::Rfid2,
-        params: |_| RfidParams { anchor: Anchor::AllTags, ..Default::default() },
+        params: |_| RfidParams { anchor: Anchor::AllTags, ..RfidParams::unguarded() },
     },
     Variant {
         name: "#3 from where #2 ends",
         method: TagMethod::Rfid3,
         params: |_| icp(IcpParams::default()),
+    },
+    Variant {
+        name: "#3 point to point",
+        method: TagMethod::Rfid3,
+        params: |_| icp(IcpParams { metric: Metric::PointToPoint, ..Default::default() }),
     },
     Variant {
         name: "#3 reciprocal only",
@@ -114,22 +116,16 @@ pub(super) const VARIANTS: [Variant; 16] = [
         method: TagMethod::Rfid3,
         params: |_| icp(IcpParams { pairing: Pairing::OneWay, ..Default::default() }),
     },
-    Variant {
-        name: "#3 rectangle only, no gate",
-        method: TagMethod::Rfid3,
-        params: |_| {
-            icp(IcpParams {
-                pairing: Pairing::OneWay,
-                initial_gate: Length::metres(f64::INFINITY),
-                final_gate: Length::metres(f64::INFINITY),
-                ..Default::default()
-            })
-        },
-    },
 ];
 
+/// The names of the methods.
+pub(super) fn methods() -> [&'static str; METHODS] {
+    std::array::from_fn(|index| VARIANTS[index].name)
+}
+
+/// A printed form of #1; what it gives is not asked about.
 fn tag_only(tag_only: TagOnlyParams) -> RfidParams {
-    RfidParams { tag_only, ..Default::default() }
+    RfidParams { tag_only, ..RfidParams::unguarded() }
 }
 
 /// Refinement from where #2 ends, as the paper has it.

@@ -24,9 +24,10 @@ occupied cells: by the highest peak within 12 degrees at steps of one degree, an
 correlation of both profiles at 0.25 degrees. The paper corrects 4 degrees in its simple test.";
 
 /// The forms of the similarity index; the first is the one that is judged.
-const FORMS: [(&str, Objective, Disagreement); 4] = [
+const FORMS: [(&str, Objective, Disagreement); 5] = [
     ("agr − dis", Objective::AgreementLessDisagreement, Disagreement::KnownInBoth),
     ("walls − dis (our default)", Objective::Walls, Disagreement::KnownInBoth),
+    ("least entropy", Objective::LeastEntropy, Disagreement::KnownInBoth),
     ("|dis − agr|", Objective::AsPrinted, Disagreement::KnownInBoth),
     ("|dis − agr|, dis as printed", Objective::AsPrinted, Disagreement::AsPrinted),
 ];

@@ -1,6 +1,6 @@
 //! X1 and X2: the worked tables of the RFID paper, which must come out exactly.
 
-use nalgebra::Point2;
+use nalgebra::{Matrix2, Point2};
 use ogm_core::{Outcome, Segment, TagEstimate};
 use ogm_vector::ogm_vector;
 use rfid_loc::{SelectionParams, common_tags, select_tags};
@@ -75,14 +75,17 @@ pub(crate) fn choice_of_tags() -> anyhow::Result<Measured> {
             tag_id: row.0,
             position: Point2::origin(),
             mode: Point2::origin(),
+            covariance: Matrix2::zeros(),
             certainty: pick(&row) / 100.0,
+            misfit: 1.0,
             readings: 1,
+            dropped: 0,
             touches_border: false,
             second_peak_ratio: 0.0,
         })
     };
     let pairs = common_tags(&estimates(|row| row.1), &estimates(|row| row.2))?;
-    let selected = select_tags(&pairs, &SelectionParams::default());
+    let selected = select_tags(&pairs, &SelectionParams::default())?;
     let ours: Vec<(u32, f64)> = match &selected {
         Outcome::Found(pairs) => {
             pairs.iter().map(|pair| (pair.tag_id(), pair.certainty() * 100.0)).collect()

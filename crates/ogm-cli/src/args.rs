@@ -211,24 +211,30 @@ impl From<MethodArg> for Method {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(crate) enum Fusion {
-    /// Sum of log-odds: the maps are independent evidence
+    /// No wall is lost: a wall beside another map's is the same wall, any other stays as a conflict
     #[default]
+    KeepWalls,
+    /// Sum of log-odds: the maps are independent evidence, cell by cell
     LogOdds,
-    /// The map that is surest
+    /// The map that is surest of the cell
     MaxConfidence,
+    /// Occupied if any map says so
+    Occupied,
     /// The first map that knows the cell
     First,
     /// The last map that knows the cell
     Last,
 }
 
-impl Fusion {
-    pub(crate) fn rule(self) -> FusionRule {
-        match self {
-            Self::LogOdds => FusionRule::LogOddsSum,
-            Self::MaxConfidence => FusionRule::MaxConfidence,
-            Self::First => FusionRule::PreferFirst,
-            Self::Last => FusionRule::Overwrite,
+impl From<Fusion> for FusionRule {
+    fn from(fusion: Fusion) -> Self {
+        match fusion {
+            Fusion::KeepWalls => Self::KeepWalls,
+            Fusion::LogOdds => Self::LogOdds,
+            Fusion::MaxConfidence => Self::MaxConfidence,
+            Fusion::Occupied => Self::Occupied,
+            Fusion::First => Self::First,
+            Fusion::Last => Self::Last,
         }
     }
 }

@@ -140,7 +140,7 @@ fn fused(
         return Ok(None);
     };
     let maps = inputs.each_ref().map(Input::map);
-    let (fusion, resolution) = (args.fusion.rule(), args.resolution);
+    let (fusion, resolution) = (args.fusion.into(), args.resolution);
     let params = FusionParams { fusion, resolution, ..FusionParams::default() };
     let merged = fuse(&maps, first, &params, progress)
         .with_context(|| format!("cannot make {}", args.output.display()))?;

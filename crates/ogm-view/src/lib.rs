@@ -16,16 +16,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod claims;
 mod error;
 mod overlay;
 mod palette;
 mod raster;
 
+pub use claims::{Claimed, marked, provenance};
 pub use error::ViewError;
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
 pub use overlay::overlay;
-pub use palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL, UNKNOWN};
+pub use palette::{BLANK, COMMON_WALL, CONFLICT, FREE, MAPS, SOURCE_WALL, TARGET_WALL, UNKNOWN};
 pub use raster::{crop_known, enlarge, occupancy, paint, png, reduce, side_by_side};
 
 #[cfg(doctest)]

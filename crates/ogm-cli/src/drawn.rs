@@ -18,7 +18,9 @@ pub(crate) fn overlay(
     let Some(target_from_source) = pair.target_from_source else {
         return Ok(None);
     };
-    let png = ogm_view::overlay(target.map(), source.map(), target_from_source)
+    let names = [target, source].map(Input::name);
+    let names = names.each_ref().map(String::as_str);
+    let png = ogm_view::overlay_sheet(target.map(), source.map(), target_from_source, names)
         .and_then(|picture| ogm_view::png(&picture));
     Ok(Some(png.with_context(|| format!("cannot draw {}", path.display()))?))
 }

@@ -10,6 +10,7 @@ mod bar;
 mod compare;
 mod diff;
 mod fit;
+mod fusion;
 #[cfg(test)]
 mod layers;
 mod race;
@@ -37,6 +38,8 @@ enum Task {
     Diff(diff::Args),
     /// Fits the weights of the matcher and writes them into its source.
     Fit(fit::Args),
+    /// Fuses real map pairs and measures what became of their walls.
+    Fusion(fusion::Args),
     /// Times the command `ogm` and other tools on the same map pairs, and scores their answers.
     Race(race::Args),
     /// Writes the example maps and tag logs into a folder.
@@ -52,6 +55,7 @@ fn main() -> ExitCode {
         Task::Compare(args) => compare::run(args),
         Task::Diff(args) => diff::run(&args),
         Task::Fit(args) => fit::run(args),
+        Task::Fusion(args) => fusion::run(&args),
         Task::Race(args) => race::run(args),
         Task::Fixtures { out } => ogm_eval::fixtures::write(&out).map(|()| ExitCode::SUCCESS),
     };

@@ -24,8 +24,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
          #.....?",
     )?;
     let placed = [
-        PlacedMap { map: &first, reference_from_map: Se2::identity() },
-        PlacedMap { map: &second, reference_from_map: Se2::new(0.40, -0.15, FRAC_PI_2) },
+        PlacedMap::new(&first, Se2::identity()),
+        PlacedMap::new(&second, Se2::new(0.40, -0.15, FRAC_PI_2)),
     ];
     let merged = merge(&placed, &FusionParams::default(), &())?;
     print!("{}", merged.map.to_ascii());

@@ -3,7 +3,7 @@
 use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Progress, Steps};
 
 use crate::FusionError;
-use crate::evidence::{ByteOfLogOdds, LogOddsOfByte};
+use crate::evidence::{ByteOfLogOdds, LogOddsOfByte, MeanLogOdds};
 
 /// `map` at `resolution` metres a cell, same origin pose: what two maps of different resolution
 /// are brought to before they are aligned.
@@ -79,30 +79,6 @@ pub(crate) fn coarsen_in_rows(
 fn coarse_cell(fine: usize, ratio: f64) -> usize {
     // A ratio such as 0.06/0.04 is not exact; centres on a border belong to the upper cell.
     ((fine as f64 + 0.5) / ratio + 1e-9) as usize
-}
-
-/// What the source cells of a coarse cell say: of the occupied ones alone once there is one.
-#[derive(Clone, Copy, Default)]
-struct MeanLogOdds {
-    log_odds: f64,
-    count: u32,
-    occupied: bool,
-}
-
-impl MeanLogOdds {
-    fn add(&mut self, log_odds: f64, occupied: bool) {
-        if occupied && !self.occupied {
-            *self = Self { occupied, ..Self::default() };
-        }
-        if occupied == self.occupied {
-            self.log_odds += log_odds;
-            self.count += 1;
-        }
-    }
-
-    fn mean(&self) -> Option<f64> {
-        (self.count > 0).then(|| self.log_odds / f64::from(self.count))
-    }
 }
 
 #[cfg(test)]

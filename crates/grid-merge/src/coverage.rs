@@ -7,7 +7,7 @@ use ogm_core::{Grid, GridFrame, OccupancyGrid, Se2};
 use crate::gaps::blur_coverage;
 use crate::lattice::Footprint;
 use crate::mapping::{Layer, Source, Vacant};
-use crate::merge::{check_pose, check_scatter};
+use crate::pose::{check_pose, check_scatter};
 use crate::{FusionError, FusionParams, GapTreatment, Mapping};
 
 /// A coverage field and where it lies.

@@ -37,6 +37,9 @@ pub enum FusionError {
         /// Metres a cell that were asked for.
         asked: f64,
     },
+    /// More ways in which the maps say occupied and free of a cell than are told apart.
+    #[error("the maps differ in more than 65 536 ways; ask for the provenance of fewer maps")]
+    TooManyClaims,
     /// An output that is no grid, by its size or its resolution.
     #[error(transparent)]
     Grid(#[from] GridError),

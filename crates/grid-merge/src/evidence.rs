@@ -68,6 +68,30 @@ fn bucket(l: f64) -> usize {
     ((l + LOG_ODDS_LIMIT) * BUCKETS_A_UNIT) as usize
 }
 
+/// What the source cells of a coarse cell say: of the occupied ones alone once there is one.
+#[derive(Clone, Copy, Default)]
+pub(crate) struct MeanLogOdds {
+    log_odds: f64,
+    count: u32,
+    occupied: bool,
+}
+
+impl MeanLogOdds {
+    pub(crate) fn add(&mut self, log_odds: f64, occupied: bool) {
+        if occupied && !self.occupied {
+            *self = Self { occupied, ..Self::default() };
+        }
+        if occupied == self.occupied {
+            self.log_odds += log_odds;
+            self.count += 1;
+        }
+    }
+
+    pub(crate) fn mean(&self) -> Option<f64> {
+        (self.count > 0).then(|| self.log_odds / f64::from(self.count))
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::{ByteOfLogOdds, LogOddsOfByte};

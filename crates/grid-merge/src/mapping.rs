@@ -135,7 +135,7 @@ impl<'a, T: Copy + PartialEq> Source<'a, T> {
     clippy::cast_sign_loss,
     reason = "checked to be in 0..count before the cast"
 )]
-fn cell_below(x: f64, count: usize) -> Option<usize> {
+pub(crate) fn cell_below(x: f64, count: usize) -> Option<usize> {
     let cell = (x + NUDGE).floor();
     (cell >= 0.0 && cell < count as f64).then_some(cell as usize)
 }

@@ -7,8 +7,8 @@ use ogm_core::ClassThresholds;
 pub struct FusionParams {
     /// How cells get from a map onto the output; inverse by default, because it leaves no gaps.
     pub mapping: Mapping,
-    /// What a cell becomes that several maps know; sum of log-odds by default, because the maps of
-    /// separate robots are independent evidence (the paper names no rule).
+    /// What a cell becomes that several maps know; walls are kept by default, because a planner may
+    /// drive through a wall that two maps of half a cell's difference have cancelled.
     pub fusion: FusionRule,
     /// Metres a cell of the output; `None` is the resolution of the first map. A finer map is
     /// [coarsened](crate::coarsen()) before it is mapped.
@@ -20,7 +20,8 @@ pub struct FusionParams {
 
 impl FusionParams {
     /// The structure of Tsardoulias et al., section 4.4, with its errors corrected: forward
-    /// mapping of cell centres, and gaps filled from their free neighbours.
+    /// mapping of cell centres, gaps filled from their free neighbours, and log-odds summed (the
+    /// paper names no rule).
     #[must_use]
     pub fn paper() -> Self {
         Self {
@@ -28,6 +29,7 @@ impl FusionParams {
                 rounding: ForwardRounding::default(),
                 gaps: GapTreatment::default(),
             },
+            fusion: FusionRule::LogOdds,
             ..Self::default()
         }
     }
@@ -97,16 +99,22 @@ pub enum GapTreatment {
 }
 
 /// What a cell becomes that several maps know. Unknown is neutral in all of them.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum FusionRule {
-    /// The log-odds are summed and clamped; any order of the maps gives the same bytes.
+    /// No wall is lost: a wall beside another map's is the same wall where the poses leave that
+    /// open, and stays once, where the surer map has it; any other wall stays, whoever says free,
+    /// as a conflict. Free evidence is summed as log-odds.
     #[default]
-    LogOddsSum,
+    KeepWalls,
+    /// The log-odds are summed and clamped; any order of the maps gives the same bytes.
+    LogOdds,
     /// The value furthest from one half, which itself is the answer to a tie of wall and free; any
     /// order of the maps gives the same bytes.
     MaxConfidence,
+    /// The most occupied value.
+    Occupied,
     /// The first map that knows the cell.
-    PreferFirst,
+    First,
     /// The last map that knows the cell.
-    Overwrite,
+    Last,
 }

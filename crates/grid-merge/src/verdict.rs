@@ -30,12 +30,12 @@ impl Overlap {
     }
 }
 
-const SAID_OCCUPIED: u8 = 1;
-const SAID_FREE: u8 = 2;
+pub(crate) const SAID_OCCUPIED: u8 = 1;
+pub(crate) const SAID_FREE: u8 = 2;
 
 pub(crate) struct Tables {
-    log_odds: LogOddsOfByte,
-    rounding: ByteOfLogOdds,
+    pub(crate) log_odds: LogOddsOfByte,
+    pub(crate) rounding: ByteOfLogOdds,
     said: [u8; 256],
 }
 
@@ -50,6 +50,11 @@ impl Tables {
             };
         }
         Self { log_odds: LogOddsOfByte::new(), rounding: ByteOfLogOdds::new(), said }
+    }
+
+    /// [`SAID_OCCUPIED`], [`SAID_FREE`] or 0.
+    pub(crate) fn class(&self, cell: Occupancy) -> u8 {
+        self.said[usize::from(cell.byte())]
     }
 
     /// Takes in one layer's part of a row: the first known value of a cell goes to `cells`, all of
@@ -119,7 +124,9 @@ impl Tables {
 
     fn verdict(&self, rule: FusionRule, first: Occupancy, overlap: &Overlap) -> Occupancy {
         match rule {
-            FusionRule::LogOddsSum => self.rounding.round(overlap.log_odds),
+            FusionRule::LogOdds => self.rounding.round(overlap.log_odds),
+            // Which walls are kept is a matter of their neighbourhood; alone, a wall is.
+            FusionRule::KeepWalls | FusionRule::Occupied => Occupancy::from_byte(overlap.highest),
             FusionRule::MaxConfidence => {
                 // Byte 127 is one half; as far above it as below is a tie, which is one half.
                 let total = u16::from(overlap.highest) + u16::from(overlap.lowest);
@@ -129,8 +136,8 @@ impl Tables {
                     Ordering::Equal => 127,
                 })
             }
-            FusionRule::PreferFirst => first,
-            FusionRule::Overwrite => Occupancy::from_byte(overlap.last),
+            FusionRule::First => first,
+            FusionRule::Last => Occupancy::from_byte(overlap.last),
         }
     }
 }

@@ -36,7 +36,7 @@ fn room(frame: GridFrame) -> OccupancyGrid {
 }
 
 fn placed(map: &OccupancyGrid, reference_from_map: Se2) -> PlacedMap<'_> {
-    PlacedMap { map, reference_from_map }
+    PlacedMap::new(map, reference_from_map)
 }
 
 fn all_mappings() -> [Mapping; 3] {
@@ -51,8 +51,7 @@ fn all_mappings() -> [Mapping; 3] {
 fn the_first_map_keeps_its_cells_and_the_frame_is_the_reference() {
     let (first, second) = (room(frame(-1.03, 2.07, 0.0)), room(frame(0.4, -0.2, 0.3)));
     for mapping in all_mappings() {
-        let params =
-            FusionParams { mapping, fusion: FusionRule::PreferFirst, ..FusionParams::default() };
+        let params = FusionParams { mapping, fusion: FusionRule::First, ..FusionParams::default() };
         let maps = [placed(&first, Se2::identity()), placed(&second, Se2::new(1.2, -0.7, 0.4))];
         let merged = merge(&maps, &params, &()).unwrap().map;
         assert_eq!(merged.frame().map_from_grid().theta(), 0.0);
@@ -84,9 +83,10 @@ fn conflicts_are_shown_where_they_are() {
     let first = OccupancyGrid::from_ascii(frame(0.0, 0.0, 0.0), "..#?").unwrap();
     let second = OccupancyGrid::from_ascii(frame(0.05, 0.0, 0.0), "#.#").unwrap();
     let maps = [placed(&first, Se2::identity()), placed(&second, Se2::identity())];
-    let merged = merge(&maps, &FusionParams::default(), &()).unwrap();
+    let params = FusionParams { fusion: FusionRule::LogOdds, ..FusionParams::default() };
+    let merged = merge(&maps, &params, &()).unwrap();
     assert_eq!(merged.map.to_ascii(), ".++#\n");
-    assert_eq!(merged.conflicts.cells(), [false, true, true, false]);
+    assert_eq!(merged.conflicts.to_grid().cells(), [false, true, true, false]);
     assert_eq!((merged.compared, merged.conflict_count), (2, 2));
 }
 
@@ -95,15 +95,21 @@ fn three_maps_give_the_same_bytes_in_any_order() {
     let rooms = [(0.0, 0.0, 0.0), (0.31, 0.2, 0.7), (-0.5, 0.13, -2.0)];
     let rooms = rooms.map(|(x, y, yaw)| (room(frame(0.0, 0.0, 0.0)), Se2::new(x, y, yaw)));
     let anchor = OccupancyGrid::from_ascii(frame(0.0, 0.0, 0.0), "?").unwrap();
-    let merged = |order: [usize; 3]| {
-        let mut maps = vec![placed(&anchor, Se2::identity())];
-        maps.extend(order.map(|index| placed(&rooms[index].0, rooms[index].1)));
-        merge(&maps, &FusionParams::default(), &()).unwrap()
-    };
-    let one = merged([0, 1, 2]);
-    assert!(one.conflict_count > 100, "the rooms must disagree somewhere");
-    assert_eq!(one, merged([2, 0, 1]));
-    assert_eq!(one, merged([1, 0, 2]));
+    for fusion in [FusionRule::KeepWalls, FusionRule::LogOdds, FusionRule::Occupied] {
+        let params = FusionParams { fusion, ..FusionParams::default() };
+        let merged = |order: [usize; 3]| {
+            let mut maps = vec![placed(&anchor, Se2::identity())];
+            maps.extend(order.map(|index| placed(&rooms[index].0, rooms[index].1)));
+            merge(&maps, &params, &()).unwrap()
+        };
+        let one = merged([0, 1, 2]);
+        assert!(one.conflict_count > 100, "the rooms must disagree somewhere");
+        for order in [[2, 0, 1], [1, 0, 2]] {
+            let other = merged(order);
+            assert_eq!(one.map, other.map, "{fusion:?}");
+            assert_eq!(one.conflicts, other.conflicts, "{fusion:?}");
+        }
+    }
 }
 
 #[test]

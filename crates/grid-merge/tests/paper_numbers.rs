@@ -186,7 +186,7 @@ fn t_f3_gap_treatments_of_a_rotated_field_with_a_wall() {
     let once = count(&blurred, &inverse);
     let again = forward(ForwardRounding::Centre, GapTreatment::BlurEverywhere);
     for _ in 1..6 {
-        let placed = PlacedMap { map: &blurred, reference_from_map: Se2::identity() };
+        let placed = PlacedMap::new(&blurred, Se2::identity());
         blurred = merge(&[placed], &again, &()).unwrap().map;
     }
     let forward_only = count(&treated(GapTreatment::None), &inverse);

@@ -49,7 +49,7 @@ fn merged(params: &FusionParams, progress: &dyn Progress) -> Result<(), FusionEr
     let placed: Vec<_> = maps
         .iter()
         .zip([0.0, 0.3, -0.2])
-        .map(|(map, turn)| PlacedMap { map, reference_from_map: Se2::new(turn, 1.0, turn) })
+        .map(|(map, turn)| PlacedMap::new(map, Se2::new(turn, 1.0, turn)))
         .collect();
     let heard = merge(&placed, params, progress)?;
     assert_eq!(heard, merge(&placed, params, &())?);

@@ -38,7 +38,7 @@ fn warp_and_fuse(criterion: &mut Criterion) {
     let mut group = criterion.benchmark_group("warp and fuse");
     for (name, map) in &maps() {
         let placed = [Se2::identity(), target_from_turned(map)]
-            .map(|reference_from_map| PlacedMap { map, reference_from_map });
+            .map(|reference_from_map| PlacedMap::new(map, reference_from_map));
         group.throughput(Throughput::Elements((map.width() * map.height()) as u64));
         group.bench_function(*name, |bencher| {
             bencher.iter(|| {

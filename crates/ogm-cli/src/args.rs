@@ -27,12 +27,14 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Finds the transform between two maps
     Align(AlignArgs),
-    /// Makes one map of two
+    /// Makes one map of several
     Merge(MergeArgs),
     /// Says what a map file holds, and what is wrong with it
     Info(InfoArgs),
     /// Writes a map as it looks in another frame
     Apply(ApplyArgs),
+    /// Turns a map so that its walls lie along the axes
+    Straighten(StraightenArgs),
     /// Draws a map, or two maps on each other
     View(ViewArgs),
 }
@@ -63,12 +65,28 @@ pub(crate) struct MergeArgs {
     /// Draws the maps on each other: the first blue, the second orange, both black
     #[arg(long, value_name = "O.png")]
     pub(crate) overlay: Option<PathBuf>,
-    /// What a cell becomes that both maps know
+    /// Draws the merged map with the places where maps contradict each other in red
+    #[arg(long, value_name = "C.png")]
+    pub(crate) conflicts: Option<PathBuf>,
+    /// Draws which map says what: walls in the colour of their map, black where several agree
+    #[arg(long, value_name = "P.png")]
+    pub(crate) provenance: Option<PathBuf>,
+    /// A pose that is known, for every map but the first, repeatable: maps points of that map into
+    /// the frame of the merged map, which is that of the first map unless that one is named too.
+    /// Nothing is searched
+    #[arg(long = "transform", id = "transform", value_name = "MAP.yaml=X,Y,DEG")]
+    #[arg(conflicts_with_all = ["method", "tags", "prior", "accept", "repeats"])]
+    pub(crate) transforms: Vec<String>,
+    /// What a cell becomes that several maps know
     #[arg(long, value_name = "RULE", value_enum, default_value_t)]
     pub(crate) fusion: Fusion,
     /// Metres a cell of the merged map [default: that of the first map]
     #[arg(long, value_name = "M", value_parser = metres)]
     pub(crate) resolution: Option<f64>,
+    /// Names of the maps' frames in the ROS command that is printed, in the order of the maps
+    /// [default: robot1/map,robot2/map,…]
+    #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
+    pub(crate) frames: Vec<String>,
     /// Writes the first map alone where the maps do not match; the exit code is still 3
     #[arg(long)]
     pub(crate) allow_partial: bool,
@@ -144,6 +162,22 @@ pub(crate) struct ApplyArgs {
     #[arg(value_parser = transform)]
     pub(crate) output_from_map: Se2,
     /// The moved map; its image goes beside it
+    #[arg(short, long, value_name = "OUT.yaml")]
+    pub(crate) output: PathBuf,
+    /// Overwrites existing outputs; never an input
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// No warnings and no progress
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+pub(crate) struct StraightenArgs {
+    /// The map
+    #[arg(value_name = "MAP.yaml")]
+    pub(crate) map: PathBuf,
+    /// The turned map; its image goes beside it
     #[arg(short, long, value_name = "OUT.yaml")]
     pub(crate) output: PathBuf,
     /// Overwrites existing outputs; never an input
@@ -244,11 +278,15 @@ impl From<MethodArg> for Method {
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
 pub(crate) enum Fusion {
-    /// Sum of log-odds: the maps are independent evidence
+    /// No wall is lost: a wall beside another map's is the same wall, any other stays as a conflict
     #[default]
+    KeepWalls,
+    /// Sum of log-odds: the maps are independent evidence, cell by cell
     LogOdds,
-    /// The map that is surest
+    /// The map that is surest of the cell
     MaxConfidence,
+    /// Occupied if any map says so
+    Occupied,
     /// The first map that knows the cell
     First,
     /// The last map that knows the cell
@@ -256,12 +294,22 @@ pub(crate) enum Fusion {
 }
 
 impl Fusion {
-    pub(crate) fn rule(self) -> FusionRule {
-        match self {
-            Self::LogOdds => FusionRule::LogOddsSum,
-            Self::MaxConfidence => FusionRule::MaxConfidence,
-            Self::First => FusionRule::PreferFirst,
-            Self::Last => FusionRule::Overwrite,
+    /// As the command line calls it.
+    pub(crate) fn name(self) -> String {
+        let value = self.to_possible_value();
+        value.map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+}
+
+impl From<Fusion> for FusionRule {
+    fn from(fusion: Fusion) -> Self {
+        match fusion {
+            Fusion::KeepWalls => Self::KeepWalls,
+            Fusion::LogOdds => Self::LogOdds,
+            Fusion::MaxConfidence => Self::MaxConfidence,
+            Fusion::Occupied => Self::Occupied,
+            Fusion::First => Self::First,
+            Fusion::Last => Self::Last,
         }
     }
 }

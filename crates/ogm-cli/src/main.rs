@@ -6,15 +6,20 @@ mod align;
 mod answer;
 mod apply;
 mod args;
+mod drawn;
 mod ending;
 mod info;
 mod input;
 mod interrupt;
 mod merge;
+mod merged;
+mod named;
 mod output;
+mod placing;
 mod pose;
 mod progress;
 mod search;
+mod straighten;
 mod tags;
 mod terminal;
 mod text;
@@ -39,6 +44,7 @@ fn main() -> ExitCode {
         Command::Merge(args) => merge::run(args),
         Command::Info(args) => info::run(args),
         Command::Apply(args) => apply::run(args),
+        Command::Straighten(args) => straighten::run(args),
         Command::View(args) => view::run(args),
     });
     match ended {

@@ -1,105 +1,98 @@
-//! `ogm merge`: one map of two.
+//! `ogm merge`: one map of several.
 
 use std::path::Path;
 
 use anyhow::Context;
 use ogm_core::{Progress, Stage};
 use ogm_io::{WriteOptions, write_file, write_map};
-use ogm_merge::{Component, FusionParams, Merged, PairReport, PoseDegrees, Verdict, fuse};
-use serde::Serialize;
+use ogm_merge::{Component, FusionParams, Merged, Verdict, fuse};
 
-use crate::answer::{PairAnswer, SCHEMA};
+use crate::answer::SCHEMA;
 use crate::args::MergeArgs;
 use crate::ending::Ending;
-use crate::input::{Input, MapFile};
+use crate::input::Input;
+use crate::merged::{MergeAnswer, MergedMap};
+use crate::named::transforms_of;
+use crate::placing::Placing;
 use crate::progress::Bar;
-use crate::search::{check, search};
+use crate::search::check;
 use crate::tags::logs_of;
 use crate::usage::UsageError;
-use crate::{output, terminal, text};
-
-/// What was found and done.
-#[derive(Debug, Serialize)]
-struct MergeAnswer {
-    schema: u32,
-    maps: Vec<MapFile>,
-    pairs: Vec<PairAnswer>,
-    components: Vec<Component>,
-    output: Option<Output>,
-}
-
-/// The map that was written.
-#[derive(Debug, Serialize)]
-struct Output {
-    file: String,
-    width: usize,
-    height: usize,
-    resolution_m: f64,
-    origin: PoseDegrees,
-    /// Maps that are in it.
-    maps: Vec<usize>,
-    compared_cells: usize,
-    conflict_cells: usize,
-}
+use crate::{drawn, output, terminal, text};
 
 pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
-    let [target, source] = &args.maps[..] else {
-        let count = args.maps.len();
-        let message = format!("merge takes two maps for now, not {count}");
-        return Err(UsageError(message).into());
-    };
+    let names: Vec<&Path> = args.maps.iter().map(AsRef::as_ref).collect();
     let quiet = args.search.quiet;
-    let logs = logs_of(&[target, source], &args.search.tags)?;
+    let known = transforms_of(&names, &args.transforms)?;
+    if known.is_none() && names.len() != 2 {
+        let message = format!(
+            "a search takes two maps, not {}; give the poses of more by --transform MAP.yaml=X,Y,DEG",
+            names.len()
+        );
+        return Err(UsageError(message).into());
+    }
+    let logs = logs_of(&names, &args.search.tags)?;
     check(&args.search, &logs)?;
-    let inputs = [Input::read(target, quiet)?, Input::read(source, quiet)?];
+    let inputs =
+        names.iter().map(|name| Input::read(name, quiet)).collect::<anyhow::Result<Vec<_>>>()?;
     check_outputs(args, &inputs, logs.iter().flatten().map(AsRef::as_ref))?;
 
     let bar = Bar::start("merging", quiet);
     let part = Stage::new(&bar, 0.0, 0.8);
-    let pair = search(inputs.each_ref(), &logs, &args.search, &part)?;
-    let overlay = match &args.overlay {
-        Some(path) => drawn(path, &inputs, &pair.report)?,
-        None => None,
+    let placing = match &known {
+        Some(poses) => Placing::known(&inputs, poses, &args.search, &part)?,
+        None => Placing::searched([&inputs[0], &inputs[1]], &logs, &args.search, &part)?,
     };
-    let components = pair.report.components();
-    let fused = fused(&inputs, &components, args, &Stage::new(&bar, 0.8, 1.0))?;
+    let made = made(&inputs, &placing.components, args, &Stage::new(&bar, 0.8, 1.0))?;
+    let pictures = pictures(&inputs, &placing, made.as_ref(), args)?;
     drop(bar);
-    let merged = fused.as_ref().map(|(_, merged)| merged);
 
-    if let Some(merged) = merged {
+    if let Some(made) = &made {
         let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };
-        write_map(&args.output, &merged.map, &options)?;
+        write_map(&args.output, &made.merged.map, &options)?;
     }
-    match (&args.overlay, overlay) {
-        (Some(path), Some(png)) => {
-            write_file(path, &png, args.force)?;
-            if pair.report.verdict() != Verdict::Merged && !quiet {
-                let path = path.display();
-                terminal::warning(&format!("{path} shows the best transform, which was refused"));
-            }
+    for picture in pictures {
+        let path = picture.path.display();
+        if let Some(png) = picture.png {
+            write_file(picture.path, &png, args.force)?;
         }
-        (Some(path), None) if !quiet => {
-            let path = path.display();
-            terminal::warning(&format!("{path} is not drawn: no transform was found"));
+        if let Some(remark) = picture.remark.filter(|_| !quiet) {
+            terminal::warning(&format!("{path} {remark}"));
         }
-        _ => {}
     }
-    let ending = pair.ending();
+    let ending = placing.ending();
     let answer = MergeAnswer {
         schema: SCHEMA,
         maps: inputs.iter().map(Input::file).collect(),
-        pairs: vec![pair],
-        output: fused
-            .as_ref()
-            .map(|(component, merged)| Output::new(&args.output, component, merged)),
-        components,
+        output: made.as_ref().map(|made| {
+            let fusion = args.fusion.name();
+            MergedMap::new(&args.output, made.component, &made.merged, fusion)
+        }),
+        pairs: placing.pairs,
+        components: placing.components.clone(),
     };
     let json = serde_json::to_string_pretty(&answer)? + "\n";
     if let Some(path) = &args.report {
         write_file(path, json.as_bytes(), args.force)?;
     }
-    terminal::result(&if args.search.json { json } else { said(&answer, merged, args) })?;
+    let said = || text::merge(&answer, made.as_ref().map(|made| &made.merged), args);
+    terminal::result(&if args.search.json { json } else { said() })?;
     Ok(ending)
+}
+
+/// What was made of the maps.
+struct Made<'a> {
+    component: &'a Component,
+    params: FusionParams,
+    merged: Merged,
+}
+
+/// A picture that was asked for.
+struct Picture<'a> {
+    path: &'a Path,
+    /// `None` where there is nothing to draw.
+    png: Option<Vec<u8>>,
+    remark: Option<&'static str>,
 }
 
 fn check_outputs<'a>(
@@ -109,74 +102,63 @@ fn check_outputs<'a>(
 ) -> anyhow::Result<()> {
     let image = output::image_of(&args.output);
     let mut outputs = vec![args.output.as_path(), &image];
-    outputs.extend([&args.report, &args.overlay].into_iter().flatten().map(AsRef::<Path>::as_ref));
+    let others = [&args.report, &args.overlay, &args.conflicts, &args.provenance];
+    outputs.extend(others.into_iter().flatten().map(AsRef::<Path>::as_ref));
     let inputs: Vec<&Path> = inputs.iter().flat_map(Input::paths).chain(logs).collect();
     output::check(&outputs, &inputs, args.force)
 }
 
-/// The maps on each other under the best transform, accepted or not, as a PNG.
-fn drawn(
-    path: &Path,
-    [target, source]: &[Input; 2],
-    pair: &PairReport,
-) -> anyhow::Result<Option<Vec<u8>>> {
-    let Some(target_from_source) = pair.target_from_source else {
-        return Ok(None);
-    };
-    let png = ogm_view::overlay(target.map(), source.map(), target_from_source)
-        .and_then(|picture| ogm_view::png(&picture));
-    Ok(Some(png.with_context(|| format!("cannot draw {}", path.display()))?))
-}
-
 /// The component of the first map as one map, if it holds all maps or that is not asked for.
-fn fused(
-    inputs: &[Input; 2],
-    components: &[Component],
+fn made<'a>(
+    inputs: &[Input],
+    components: &'a [Component],
     args: &MergeArgs,
     progress: &dyn Progress,
-) -> anyhow::Result<Option<(Component, Merged)>> {
-    let Some(first) = components.first().filter(|_| components.len() == 1 || args.allow_partial)
-    else {
+) -> anyhow::Result<Option<Made<'a>>> {
+    let all = components.len() == 1;
+    let Some(component) = components.first().filter(|_| all || args.allow_partial) else {
         return Ok(None);
     };
-    let maps = inputs.each_ref().map(Input::map);
-    let (fusion, resolution) = (args.fusion.rule(), args.resolution);
+    let maps: Vec<_> = inputs.iter().map(Input::map).collect();
+    let (fusion, resolution) = (args.fusion.into(), args.resolution);
     let params = FusionParams { fusion, resolution, ..FusionParams::default() };
-    let merged = fuse(&maps, first, &params, progress)
+    let merged = fuse(&maps, component, &params, progress)
         .with_context(|| format!("cannot make {}", args.output.display()))?;
-    Ok(Some((first.clone(), merged)))
+    Ok(Some(Made { component, params, merged }))
 }
 
-impl Output {
-    fn new(yaml: &Path, component: &Component, merged: &Merged) -> Self {
-        let map = &merged.map;
-        Self {
-            file: yaml.display().to_string(),
-            width: map.width(),
-            height: map.height(),
-            resolution_m: map.frame().resolution(),
-            origin: map.frame().map_from_grid().into(),
-            maps: component.members.iter().map(|member| member.map).collect(),
-            compared_cells: merged.compared,
-            conflict_cells: merged.conflict_count,
-        }
+fn pictures<'a>(
+    inputs: &[Input],
+    placing: &Placing,
+    made: Option<&Made<'_>>,
+    args: &'a MergeArgs,
+) -> anyhow::Result<Vec<Picture<'a>>> {
+    const UNMADE: Option<&str> = Some("is not drawn: no map was made");
+    let mut pictures = Vec::new();
+    if let Some(path) = &args.overlay {
+        let pair = placing.pairs.first().zip(placing.of_pairs.first());
+        let drawn = pair.map(|(pair, &[target, source])| {
+            let png = drawn::overlay(path, [&inputs[target], &inputs[source]], &pair.report)?;
+            let refused = pair.report.verdict() != Verdict::Merged;
+            let remark = match &png {
+                Some(_) => refused.then_some("shows the best transform, which was refused"),
+                None => Some("is not drawn: no transform was found"),
+            };
+            anyhow::Ok(Picture { path, png, remark })
+        });
+        pictures.extend(drawn.transpose()?);
     }
-}
-
-fn said(answer: &MergeAnswer, merged: Option<&Merged>, args: &MergeArgs) -> String {
-    let mut said: String = answer.pairs.iter().map(text::pair).collect();
-    let Some(merged) = merged else {
-        return said;
-    };
-    said += &text::written(&args.output, &merged.map);
-    match &answer.components[0].members[..] {
-        [_, others @ ..] if !others.is_empty() => {
-            said += &text::conflicts(merged);
-            for member in others {
-                said += &text::static_transform(&member.reference_from_map);
-            }
-        }
-        _ => said += &format!("  it is {} alone\n", answer.maps[0].file),
+    if let Some(path) = &args.conflicts {
+        let png = made.map(|made| drawn::conflicts(path, &made.merged)).transpose()?;
+        let remark = if png.is_none() { UNMADE } else { None };
+        pictures.push(Picture { path, png, remark });
     }
-    said
+    if let Some(path) = &args.provenance {
+        let maps: Vec<_> = inputs.iter().map(Input::map).collect();
+        let png = made.map(|made| drawn::provenance(path, &maps, made.component, &made.params));
+        let png = png.transpose()?;
+        let remark = if png.is_none() { UNMADE } else { None };
+        pictures.push(Picture { path, png, remark });
+    }
+    Ok(pictures)
 }

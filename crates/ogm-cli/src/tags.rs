@@ -7,6 +7,7 @@ use ogm_core::TagEstimate;
 use ogm_io::read_tags;
 use ogm_merge::{FilterParams, localise};
 
+use crate::named::is_same;
 use crate::usage::UsageError;
 
 /// The tag log of each of `maps`, from the values of `--tags`.
@@ -41,10 +42,6 @@ fn split<'a>(maps: &[&Path], argument: &'a str) -> Result<(&'a Path, &'a str), U
         let names: Vec<_> = maps.iter().map(|map| map.display().to_string()).collect();
         UsageError(format!("--tags {argument} names none of the maps: {}", names.join(", ")))
     })
-}
-
-fn is_same(a: &Path, b: &Path) -> bool {
-    a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Where the tags of a log are, by a reader of these parameters.

@@ -4,9 +4,11 @@ use std::fmt::Write;
 use std::path::Path;
 
 use grid_merge::Merged;
-use ogm_core::{OccupancyGrid, Outcome, Se2};
+use ogm_core::{OccupancyGrid, Outcome, Refusal, Se2};
 
 use crate::answer::PairAnswer;
+use crate::args::MergeArgs;
+use crate::merged::{Conflict, MergeAnswer};
 use crate::terminal::highlight;
 
 /// Standing for "merged", "ambiguous" and "no-match".
@@ -30,6 +32,13 @@ pub(crate) fn pair(answer: &PairAnswer) -> String {
         }
         Outcome::Refused(refusal) => writeln!(text, "{}: {refusal}", highlight(verdict, RED)),
     };
+    if let Outcome::Refused(Refusal::Unlikely { probability, .. }) = &report.outcome {
+        // Rounded down, so that it is accepted.
+        let enough = (100.0 * probability).floor() / 100.0;
+        if enough > 0.0 {
+            let _ = writeln!(text, "  to accept it all the same: --accept {enough:.2}");
+        }
+    }
     for warning in &report.warnings {
         let _ = writeln!(text, "  {}: {warning}", highlight("warning", YELLOW));
     }
@@ -82,19 +91,67 @@ pub(crate) fn written(yaml: &Path, map: &OccupancyGrid) -> String {
     )
 }
 
-/// How far the maps agree where both know.
-pub(crate) fn conflicts(merged: &Merged) -> String {
-    let (conflicts, compared) = (merged.conflict_count, merged.compared);
-    format!("  {conflicts} of {compared} cells that both maps know are in conflict\n")
+/// What was found and done by a merge.
+pub(crate) fn merge(answer: &MergeAnswer, merged: Option<&Merged>, args: &MergeArgs) -> String {
+    let mut said: String = answer.pairs.iter().map(pair).collect();
+    let (Some(merged), Some(output)) = (merged, &answer.output) else {
+        return said;
+    };
+    said += &written(&args.output, &merged.map);
+    let Some([first, others @ ..]) = answer.components.first().map(|all| &all.members[..]) else {
+        return said;
+    };
+    if others.is_empty() {
+        said += &format!("  it is {} alone\n", answer.maps[0].file);
+        return said;
+    }
+    said += &conflicts(merged, &output.conflicts, answer);
+    let first_from_reference = first.reference_from_map.inverse();
+    let frame = |map: usize| match args.frames.get(map) {
+        Some(frame) => frame.clone(),
+        None => format!("robot{}/map", map + 1),
+    };
+    for other in others {
+        let first_from_other = first_from_reference * other.reference_from_map;
+        said += &static_transform(&first_from_other, [&frame(first.map), &frame(other.map)]);
+    }
+    said
+}
+
+/// How far the maps agree where several know, and the largest place where they do not.
+fn conflicts(merged: &Merged, conflicts: &[Conflict], answer: &MergeAnswer) -> String {
+    let (cells, compared) = (merged.conflict_count, merged.compared);
+    let Some(largest) = conflicts.first() else {
+        return format!("  no conflicts in {compared} cells that several maps know\n");
+    };
+    let files = |maps: &[usize]| {
+        maps.iter().map(|&map| answer.maps[map].file.as_str()).collect::<Vec<_>>().join(", ")
+    };
+    let [width, height] = largest.size_m;
+    format!(
+        "  conflicts: {cells} of {compared} cells that several maps know, in {} places; the largest, \
+         {width:.2} x {height:.2} m at ({:.2}, {:.2}), is occupied in {} and free in {}\n",
+        merged.region_count,
+        largest.x_m,
+        largest.y_m,
+        files(&largest.occupied),
+        files(&largest.free),
+    )
+}
+
+/// How a map was turned along its walls.
+pub(crate) fn turned(straight_from_map: &Se2) -> String {
+    let degrees = straight_from_map.theta().to_degrees() + 0.0;
+    format!("  turned by {degrees:.2} deg about the origin of its frame\n")
 }
 
 /// The command that tells ROS where the second map lies.
-pub(crate) fn static_transform(target_from_source: &Se2) -> String {
+fn static_transform(target_from_source: &Se2, [parent, child]: [&str; 2]) -> String {
     // Adding zero turns -0.0 into 0.0.
     let [x, y] = [target_from_source.x(), target_from_source.y()].map(|metres| metres + 0.0);
     let yaw = target_from_source.theta() + 0.0;
     format!(
         "ros2 run tf2_ros static_transform_publisher --x {x:.6} --y {y:.6} --yaw {yaw:.6} \
-         --frame-id robot1/map --child-frame-id robot2/map\n"
+         --frame-id {parent} --child-frame-id {child}\n"
     )
 }

@@ -2,7 +2,7 @@
 
 use anyhow::Context;
 use ogm_io::write_file;
-use ogm_view::{occupancy, overlay, png};
+use ogm_view::{occupancy, overlay_sheet, png};
 
 use crate::args::ViewArgs;
 use crate::ending::Ending;
@@ -20,7 +20,10 @@ pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
     let cannot_draw = || format!("cannot draw {}", args.output.display());
     let picture = match source.as_ref().zip(args.target_from_source) {
         Some((source, target_from_source)) => {
-            overlay(target.map(), source.map(), target_from_source).with_context(cannot_draw)?
+            let names = [&target, source].map(Input::name);
+            let names = names.each_ref().map(String::as_str);
+            overlay_sheet(target.map(), source.map(), target_from_source, names)
+                .with_context(cannot_draw)?
         }
         None => occupancy(target.map()),
     };

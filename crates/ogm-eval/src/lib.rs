@@ -14,6 +14,7 @@
 //! | `experiments` | one folder each: `record`, `run`, `tables`, `figures`, `criteria` |
 //! | [`compare`] | runs the experiments and writes the report |
 //! | [`race`] | our command beside other tools, in turns |
+//! | [`fusion`] | what a merged map does to the walls of real pairs |
 //! | [`record`] | dated results, and what changed between two |
 //! | [`fit`] | the weights of the matcher, from labelled pairs |
 //! | [`fixtures`] | the example maps |
@@ -27,6 +28,7 @@ mod draw;
 mod experiments;
 pub mod fit;
 pub mod fixtures;
+pub mod fusion;
 mod judge;
 mod measured;
 mod options;

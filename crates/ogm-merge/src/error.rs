@@ -35,6 +35,14 @@ pub enum MergeError {
         /// How many there are.
         maps: usize,
     },
+    /// Known poses that are not one for each map.
+    #[error("{poses} poses for {maps} maps; each map needs one, and there must be a map")]
+    PosesOfMaps {
+        /// How many poses there are.
+        poses: usize,
+        /// How many maps.
+        maps: usize,
+    },
     /// The call was asked to end.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

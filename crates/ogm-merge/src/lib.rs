@@ -2,7 +2,8 @@
 //!
 //! [`align_pair`] finds the transform between two maps by any [`Method`], says what every stage
 //! saw, or refuses with a reason; [`fuse`] makes one map of what hangs together. Every front end
-//! calls these and decides nothing itself.
+//! calls these and decides nothing itself. [`known_poses`] stands for the search where the poses are
+//! known.
 //!
 //! ```
 //! use ogm_merge::{AlignParams, FusionParams, Method, RobotMap, align_pair, fuse};
@@ -40,6 +41,7 @@ mod error;
 mod evidence;
 #[cfg(feature = "serde")]
 mod json;
+mod known;
 mod merge;
 mod method;
 mod pair;
@@ -53,6 +55,7 @@ mod robot_map;
 mod schedule;
 mod segments;
 mod stop;
+mod straighten;
 mod tagged;
 mod task;
 mod verify;
@@ -63,8 +66,9 @@ pub use carpin_walk::Objective as WalkObjective;
 pub use error::MergeError;
 pub use evidence::{TagEvidence, WallAgreement, WallDirection};
 pub use grid_match::{MatchParams, Prior};
-pub use grid_merge::{FusionParams, FusionRule, Merged};
-pub use merge::{Component, Member, fuse};
+pub use grid_merge::{ConflictRegion, FusionParams, FusionRule, Merged, PlacedMap};
+pub use known::{KnownPair, KnownPoses, known_poses};
+pub use merge::{Component, Member, fuse, placed};
 pub use method::{Method, TagMethod};
 pub use ogm_core;
 pub use pair::align_pair;
@@ -74,6 +78,7 @@ pub use report::{Hypothesis, PairReport, Stages, Verdict};
 pub use rfid_loc::{FilterParams, localise};
 pub use robot_map::RobotMap;
 pub use segments::{TeamMerge, align_by_radon, merge_by_radon};
+pub use straighten::{Straightening, straighten};
 pub use tagged::{TagReport, align_by_tags};
 pub use walk::{CarpinParams, CarpinReport, align_carpin};
 pub use warning::Warning;

@@ -23,16 +23,28 @@ pub struct Member {
     /// Covariance of (x, y, θ) in the axes of the component, m², m·rad, rad²; zero for the
     /// reference, `None` where the method has none.
     pub covariance: Option<Matrix3<f64>>,
+    /// How far its parts lie from where the pose puts them, root mean square, metres; zero where
+    /// the method does not say.
+    pub bend_m: f64,
 }
 
 impl Component {
     fn alone(map: usize) -> Self {
         let covariance = Some(Matrix3::zeros());
-        Self { members: vec![Member { map, reference_from_map: Se2::identity(), covariance }] }
+        let reference_from_map = Se2::identity();
+        Self { members: vec![Member { map, reference_from_map, covariance, bend_m: 0.0 }] }
     }
 }
 
 impl PairReport {
+    /// How far parts of the maps lie from where the best transform puts them, root mean square,
+    /// metres; `None` for a method that does not look.
+    #[must_use]
+    pub fn bend_m(&self) -> Option<f64> {
+        let best = self.stages.matching.as_ref()?.hypotheses.first()?;
+        Some(best.bend.rms_m)
+    }
+
     /// Target (map 0) and source (map 1) together where the outcome is a transform, else each
     /// alone.
     #[must_use]
@@ -45,6 +57,7 @@ impl PairReport {
             map: 1,
             reference_from_map: *target_from_source,
             covariance: self.hypotheses.first().and_then(|best| best.covariance),
+            bend_m: self.bend_m().unwrap_or(0.0),
         });
         vec![both]
     }
@@ -62,11 +75,26 @@ pub fn fuse(
     params: &FusionParams,
     progress: &dyn Progress,
 ) -> Result<Merged, MergeError> {
+    Ok(grid_merge::merge(&placed(maps, component)?, params, progress)?)
+}
+
+/// The maps of a component, each with its pose and how sure that is.
+///
+/// # Errors
+/// A component that names a map which is not in `maps`.
+pub fn placed<'a>(
+    maps: &[&'a OccupancyGrid],
+    component: &Component,
+) -> Result<Vec<PlacedMap<'a>>, MergeError> {
     let place = |member: &Member| {
         let map = maps.get(member.map).copied();
         let map = map.ok_or(MergeError::NoSuchMap { map: member.map, maps: maps.len() })?;
-        Ok(PlacedMap { map, reference_from_map: member.reference_from_map })
+        Ok(PlacedMap {
+            map,
+            reference_from_map: member.reference_from_map,
+            covariance: member.covariance,
+            bend_m: member.bend_m,
+        })
     };
-    let placed: Vec<_> = component.members.iter().map(place).collect::<Result<_, MergeError>>()?;
-    Ok(grid_merge::merge(&placed, params, progress)?)
+    component.members.iter().map(place).collect()
 }

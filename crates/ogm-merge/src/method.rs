@@ -15,6 +15,9 @@ pub enum Method {
     Carpin,
     /// Wall segments that look alike, then the Radon transform (Saeedi et al.).
     Radon,
+    /// None: the pose of the prior, whatever its uncertainty, or else the maps' own frames are one.
+    /// What the maps say about it is reported, and never refused.
+    Known,
 }
 
 /// A method of Tsardoulias, Thallas, Petrou, *Metric Map Merging using RFID Tags & Topological
@@ -38,7 +41,7 @@ pub enum TagMethod {
 
 impl Method {
     /// Every method.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 11] = [
         Self::Auto,
         Self::Match,
         Self::Tags(TagMethod::Rfid1),
@@ -49,6 +52,7 @@ impl Method {
         Self::Tags(TagMethod::TagsIcp),
         Self::Carpin,
         Self::Radon,
+        Self::Known,
     ];
 
     /// As reports and command lines call it.
@@ -65,6 +69,7 @@ impl Method {
             Self::Tags(TagMethod::TagsIcp) => "tags-icp",
             Self::Carpin => "carpin",
             Self::Radon => "radon",
+            Self::Known => "known",
         }
     }
 
@@ -77,6 +82,6 @@ impl Method {
     /// Whether it has a use for a pose that is already believed.
     #[must_use]
     pub fn takes_prior(self) -> bool {
-        matches!(self, Self::Auto | Self::Match | Self::Carpin)
+        matches!(self, Self::Auto | Self::Match | Self::Carpin | Self::Known)
     }
 }

@@ -1,6 +1,7 @@
 //! The front door: two maps and a method in, one report out.
 
 use grid_match::{Evidence, MatchParams, Prior, match_maps};
+use nalgebra::Matrix3;
 use ogm_core::{Outcome, Progress, Refusal, Se2, Stage};
 use radon_merge::{Candidate, RadonParams};
 use rfid_loc::{common_tags, select_tags};
@@ -23,6 +24,8 @@ use crate::{
 /// [`Method::Match`] looks for them at the identity only: no second robot repeats every cell of
 /// the first, so the other ways to lay a symmetric building on itself are no rivals.
 ///
+/// A prior of no uncertainty is the pose ([`Method::Known`]) to every method that takes one.
+///
 /// # Errors
 /// Input that cannot be meant, or a call that was cancelled; a valid pair that holds too little
 /// is a refused outcome.
@@ -34,12 +37,15 @@ pub fn align_pair(
     progress: &dyn Progress,
 ) -> Result<PairReport, MergeError> {
     let pair = Pair { target, source, params };
-    let mut report = match method {
+    let is_exact = |prior: &Prior| prior.sigma_m == 0.0 && prior.sigma_rad == 0.0;
+    let is_given = method.takes_prior() && params.prior.as_ref().is_some_and(is_exact);
+    let mut report = match if is_given { Method::Known } else { method } {
         Method::Auto => pair.by_what_there_is(progress),
         Method::Match => pair.by_maps(progress),
         Method::Tags(method) => pair.by_tags(method, progress),
         Method::Carpin => pair.by_walk(progress),
         Method::Radon => pair.by_segments(progress),
+        Method::Known => pair.as_given(progress),
     }?;
     if pair.are_copies() {
         report.warnings.push(Warning::Copies);
@@ -168,6 +174,27 @@ impl Pair<'_> {
                 Refusal::NoOverlap { have_m: evidence.same_side_m, need_m }
             });
         }
+        Ok(report)
+    }
+
+    fn as_given(&self, progress: &dyn Progress) -> Result<PairReport, MergeError> {
+        let prior = self.params.prior;
+        let given = prior.map_or_else(Se2::identity, |prior| prior.target_from_source);
+        given.check_finite()?;
+        let stages = Stages::default();
+        let outcome = Outcome::Found(given);
+        let (mut report, evidence) =
+            self.scored(Method::Known, outcome, Some(given), stages, progress)?;
+        for hypothesis in &mut report.hypotheses {
+            hypothesis.covariance = Some(Matrix3::zeros());
+        }
+        report.warnings.extend(match evidence {
+            Some(evidence) if evidence.is_comparable() => {
+                let agreement = evidence.agreement();
+                (evidence.score() <= 0.0).then_some(Warning::GivenPoseDoubtful { agreement })
+            }
+            _ => Some(Warning::GivenPoseUnchecked),
+        });
         Ok(report)
     }
 

@@ -50,13 +50,13 @@ pub fn merge_by_radon(
     progress: &dyn Progress,
 ) -> Result<TeamMerge, MergeError> {
     let mut matches = Vec::with_capacity(others.len());
-    let mut placed = vec![PlacedMap { map: first, reference_from_map: Se2::identity() }];
+    let mut placed = vec![PlacedMap::new(first, Se2::identity())];
     let share = |map: usize| 0.9 * map as f64 / others.len() as f64;
     for (map, &other) in others.iter().enumerate() {
         let part = Stage::new(progress, share(map), share(map + 1));
         let found = align_by_radon(first, other, params, &part)?;
         if let Outcome::Found(first_from_other) = found.outcome {
-            placed.push(PlacedMap { map: other, reference_from_map: first_from_other });
+            placed.push(PlacedMap::new(other, first_from_other));
         }
         matches.push(found);
     }

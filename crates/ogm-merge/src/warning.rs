@@ -58,6 +58,20 @@ pub enum Warning {
         /// Change of length along x and y of the source, over its length.
         stretch: [f64; 2],
     },
+    /// The maps have too little in common in a pose that was given.
+    #[error(
+        "in the pose that was given the maps have too little in common to tell whether it is right"
+    )]
+    GivenPoseUnchecked,
+    /// What the maps have in common speaks against a pose that was given.
+    #[error(
+        "the walls speak against the pose that was given: {:.0} % of those that both maps saw agree",
+        100.0 * agreement
+    )]
+    GivenPoseDoubtful {
+        /// Share of the compared wall that fits.
+        agreement: f64,
+    },
     /// Both maps hold the same cells in the same place.
     #[error(
         "both maps hold the same cells in the same place: copies of one map, not two robots' maps"

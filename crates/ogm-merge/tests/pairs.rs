@@ -7,7 +7,7 @@ use nalgebra::Point2;
 use ogm_core::{Progress, Se2, TagEstimate};
 use ogm_merge::{
     AlignParams, FilterParams, FusionParams, MergeError, Method, Prior, RobotMap, TagMethod,
-    Verdict, Warning, align_pair, fuse, localise,
+    Verdict, Warning, align_pair, fuse, known_poses, localise,
 };
 use ogm_sim::{FloorPlan, LidarParams, MappingParams, PairParams, SimulatedPair, simulate_pair};
 
@@ -174,4 +174,39 @@ fn a_report_is_json_with_the_fields_of_schema_1_and_what_was_seen() {
             assert_eq!(json["target_from_source"]["x_m"].as_f64(), Some(best.x()));
         }
     }
+}
+
+#[test]
+fn a_pose_that_is_known_is_the_answer_and_what_the_maps_say_of_it_is_reported() {
+    let pair = world(3);
+    let robots = [&pair.target.map, &pair.source.map].map(RobotMap::from);
+    let given = |target_from_source| {
+        let prior = Some(Prior { target_from_source, sigma_m: 0.0, sigma_rad: 0.0 });
+        let params = AlignParams { prior, ..AlignParams::default() };
+        let report = align_pair(Method::Match, &robots[0], &robots[1], &params, &()).unwrap();
+        assert_eq!((report.method, report.verdict()), (Method::Known, Verdict::Merged));
+        assert_eq!(report.target_from_source, Some(target_from_source));
+        report
+    };
+    let right = given(pair.target_from_source);
+    assert!(right.warnings.is_empty() && right.agreement > Some(0.8), "{:?}", right.warnings);
+    let apart = given(Se2::new(500.0, 0.0, 0.0));
+    assert_eq!(
+        (apart.overlap, &apart.warnings[..]),
+        (Some(0.0), &[Warning::GivenPoseUnchecked][..])
+    );
+    let wrong = given(pair.target_from_source * Se2::new(1.0, 0.7, 0.3));
+    let [Warning::GivenPoseDoubtful { agreement }] = wrong.warnings[..] else {
+        panic!("{:?}", wrong.warnings)
+    };
+    assert_eq!(wrong.agreement, Some(agreement));
+
+    let poses = [Se2::new(5.0, 1.0, 0.3), Se2::new(5.0, 1.0, 0.3) * pair.target_from_source];
+    let known = known_poses(&robots, &poses, &AlignParams::default(), &()).unwrap();
+    assert_eq!(known.pairs[0].report.overlap, right.overlap);
+    assert_eq!(known.component.members[1].reference_from_map, poses[1]);
+    let lacking = known_poses(&robots, &poses[..1], &AlignParams::default(), &());
+    assert!(matches!(lacking, Err(MergeError::PosesOfMaps { poses: 1, maps: 2 })));
+    let nan = [Se2::identity(), Se2::new(f64::NAN, 0.0, 0.0)];
+    assert!(known_poses(&robots, &nan, &AlignParams::default(), &()).is_err());
 }

@@ -30,6 +30,37 @@ pub fn overlay(
     source: &OccupancyGrid,
     target_from_source: Se2,
 ) -> Result<RgbImage, ViewError> {
+    Ok(placed_overlay(target, source, target_from_source)?.image)
+}
+
+/// An overlay, and where its pixels lie.
+pub(crate) struct PlacedOverlay {
+    pub(crate) image: RgbImage,
+    /// Of the cell in the lower left corner, in the target map.
+    frame: GridFrame,
+    /// Cells a pixel.
+    factor: usize,
+}
+
+impl PlacedOverlay {
+    /// Metres a pixel.
+    pub(crate) fn metres_a_pixel(&self) -> f64 {
+        self.frame.resolution() * self.factor as f64
+    }
+
+    /// Pixels from the left and the top of a point of the target map.
+    pub(crate) fn pixel_of(&self, point: Point2<f64>) -> [f64; 2] {
+        let pixels = self.frame.cells_from_point(point) / self.factor as f64;
+        [pixels.x, f64::from(self.image.height()) - pixels.y]
+    }
+}
+
+/// [`overlay()`] with its place.
+pub(crate) fn placed_overlay(
+    target: &OccupancyGrid,
+    source: &OccupancyGrid,
+    target_from_source: Se2,
+) -> Result<PlacedOverlay, ViewError> {
     target_from_source.check_finite()?;
     let lattice = target.frame();
     let corners = known_corners(target)
@@ -74,13 +105,15 @@ pub fn overlay(
         }
     }
     let walls = SOURCE_BIT | TARGET_BIT;
-    Ok(paint(&bits, |&bits| match bits & walls {
+    let image = paint(&bits, |&bits| match bits & walls {
         0 if bits & FREE_BIT != 0 => FREE,
         0 => BLANK,
         SOURCE_BIT => SOURCE_WALL,
         TARGET_BIT => TARGET_WALL,
         _ => COMMON_WALL,
-    }))
+    });
+    let frame = lattice.shifted(low[0] - margin, low[1] - margin);
+    Ok(PlacedOverlay { image, frame, factor })
 }
 
 /// The map resampled into `frame`: `wall` where it is occupied, [`FREE_BIT`] where it is free.

@@ -14,3 +14,16 @@ pub const SOURCE_WALL: Rgb<u8> = Rgb([213, 94, 0]);
 pub const COMMON_WALL: Rgb<u8> = Rgb([20, 20, 20]);
 /// Neither map has seen it.
 pub const BLANK: Rgb<u8> = Rgb([255, 255, 255]);
+/// Maps contradict each other here.
+pub const CONFLICT: Rgb<u8> = Rgb([204, 0, 44]);
+/// Of the first map, the second and so on, from the start again after eight (Okabe and Ito).
+pub const MAPS: [Rgb<u8>; 8] = [
+    TARGET_WALL,
+    SOURCE_WALL,
+    Rgb([0, 158, 115]),
+    Rgb([204, 121, 167]),
+    Rgb([86, 180, 233]),
+    Rgb([230, 159, 0]),
+    Rgb([120, 94, 240]),
+    Rgb([150, 130, 20]),
+];

@@ -228,7 +228,7 @@ fn command_lines_that_cannot_be_meant_end_with_2() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
     let (_, complained) =
         ends_with(2, folder.path(), "merge {F}/target.yaml {F}/source.yaml c -o {T}/out.yaml");
-    assert!(complained.contains("two maps for now, not 3"), "{complained}");
+    assert!(complained.contains("a search takes two maps, not 3"), "{complained}");
 }
 
 #[test]

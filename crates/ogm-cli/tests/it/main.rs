@@ -7,6 +7,7 @@ mod align;
 mod files;
 #[cfg(unix)]
 mod interrupt;
+mod known;
 mod merge;
 mod pictures;
 mod untagged;

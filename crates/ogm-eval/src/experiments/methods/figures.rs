@@ -123,7 +123,7 @@ fn gaps(
 ) -> anyhow::Result<Figure> {
     let forward = |gaps| FusionParams {
         mapping: Mapping::Forward { rounding: ForwardRounding::Centre, gaps },
-        ..FusionParams::default()
+        ..FusionParams::paper()
     };
     let mut panels = Vec::new();
     for gaps in [GapTreatment::None, GapTreatment::HoleFill] {
@@ -145,9 +145,7 @@ fn fuse(
     target_from_source: Se2,
     params: &FusionParams,
 ) -> anyhow::Result<OccupancyGrid> {
-    let maps = [
-        PlacedMap { map: target, reference_from_map: Se2::identity() },
-        PlacedMap { map: source, reference_from_map: target_from_source },
-    ];
+    let maps =
+        [PlacedMap::new(target, Se2::identity()), PlacedMap::new(source, target_from_source)];
     Ok(merge(&maps, params, &())?.map)
 }

@@ -1,12 +1,9 @@
 //! Maps as they are handed in.
 
-use std::fs::File;
-use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
 use ogm_core::OccupancyGrid;
-use ogm_io::{LoadedMap, read_map};
+use ogm_io::{LoadedMap, MapFiles, ReadOptions};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
@@ -47,9 +44,9 @@ impl Input {
 
     /// Reads a map.
     pub(crate) fn read_silently(yaml: &Path) -> anyhow::Result<Self> {
-        let loaded = read_map(yaml)?;
-        let sha256 = sha256(&loaded.image)
-            .with_context(|| format!("cannot read {}", loaded.image.display()))?;
+        let files = MapFiles::read(yaml)?;
+        let sha256 = sha256(files.image_bytes());
+        let loaded = files.decode(&ReadOptions::default())?;
         Ok(Self { yaml: yaml.to_owned(), loaded, sha256 })
     }
 
@@ -71,21 +68,6 @@ impl Input {
     }
 }
 
-fn sha256(path: &Path) -> io::Result<String> {
-    let mut hash = Hasher(Sha256::new());
-    io::copy(&mut File::open(path)?, &mut hash)?;
-    Ok(hash.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
-}
-
-struct Hasher(Sha256);
-
-impl io::Write for Hasher {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

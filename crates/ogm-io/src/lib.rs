@@ -13,7 +13,8 @@
 //! let (header, warnings) = MapHeader::parse(yaml)?;
 //! assert!(warnings.is_empty());
 //!
-//! let (map, warnings) = header.read_image(b"P2 2 2 255  0 254  254 205", &ReadOptions::default())?;
+//! let (map, warnings) = header
+//!     .read_image(b"P2 2 2 255  0 254  254 205".to_vec(), &ReadOptions::default())?;
 //! assert_eq!(map.to_ascii(), "#.\n.?\n");
 //! // 205 is unknown to whoever saved this, but below a free_thresh of 0.25.
 //! assert!(matches!(warnings[..], [MapWarning::GreyReadAsUnknown { cells: 1, .. }]));
@@ -25,17 +26,23 @@
 
 #![expect(clippy::disallowed_methods, reason = "files are what this crate is for")]
 
+mod allocate;
 mod classify;
+mod codec;
 mod decode;
 mod disk;
+mod entries;
 mod error;
+mod format;
 mod header;
+mod lfs;
 mod map;
-mod pgm;
 mod png;
+mod pnm;
 mod raster;
 mod tag_columns;
 mod tags;
+mod text;
 mod warning;
 mod write;
 
@@ -43,11 +50,12 @@ pub use classify::ReadOptions;
 pub use disk::write_file;
 pub use error::{IoError, MapImageError, TagLogError, YamlError};
 pub use header::{MapHeader, MapMode};
-pub use map::{LoadedMap, read_map, read_map_with};
+pub use map::{LoadedMap, MapFiles, read_map, read_map_with};
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
 pub use tag_columns::TAG_LOG_HEADER;
 pub use tags::{parse_tags, read_tags, write_tags};
+pub use text::TextEncoding;
 pub use warning::MapWarning;
 pub use write::{CellEncoding, WriteOptions, write_map};
 

@@ -8,7 +8,7 @@ use ogm_core::{CellClass, ClassThresholds, Occupancy, OccupancyGrid};
 
 use crate::classify::{FREE_GREY, OCCUPIED_GREY, UNKNOWN_GREY};
 use crate::disk::{Temporary, put_pair_in_place};
-use crate::{IoError, MapImageError, pgm, png};
+use crate::{IoError, MapImageError, png, pnm};
 
 /// What is kept of a cell.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -109,7 +109,9 @@ fn encode(map: &OccupancyGrid, encoding: CellEncoding) -> Result<Vec<u8>, MapIma
                     CellClass::Undecided | CellClass::Unknown => UNKNOWN_GREY,
                 })
                 .collect();
-            Ok(pgm::encode(map.width(), map.height(), &levels))
+            let mut file = pnm::grey_header(map.width(), map.height()).into_bytes();
+            file.extend(levels);
+            Ok(file)
         }
         CellEncoding::Probabilities => {
             let pairs: Vec<u8> = cells.flat_map(|&cell| grey_and_alpha(cell)).collect();

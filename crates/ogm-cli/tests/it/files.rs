@@ -46,7 +46,7 @@ fn files_that_are_not_there_or_are_no_maps_are_named() {
     header(folder.path(), "huge", "resolution: 0.05\norigin: [0, 0, 0]\nfree_thresh: 0.196");
     for (map, complaint) in [
         ("none.yaml", "cannot read"),
-        ("a.pgm", "not a map_server YAML"),
+        ("a.pgm", "this is an image"),
         ("short.yaml", "300 × 300, 90000 pixels, but the data are 3"),
         ("lost.yaml", "the key `image` in"),
         ("huge.yaml", "exceeds the limit"),

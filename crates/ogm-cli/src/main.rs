@@ -26,6 +26,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use grid_merge::FusionError;
 use ogm_core::Cancelled;
+use ogm_io::IoError;
 use ogm_merge::MergeError;
 
 use crate::args::{Cli, Command};
@@ -64,5 +65,6 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
         cause.is::<Cancelled>()
             || cause.downcast_ref::<MergeError>().is_some_and(MergeError::is_cancelled)
             || matches!(cause.downcast_ref(), Some(FusionError::Cancelled(_)))
+            || matches!(cause.downcast_ref(), Some(IoError::Cancelled(_)))
     })
 }

@@ -4,7 +4,6 @@ use std::path::Path;
 
 use anyhow::Context;
 use ogm_core::{Progress, Stage};
-use ogm_io::{WriteOptions, write_file, write_map};
 use ogm_merge::{Component, FusionParams, Merged, PairReport, PoseDegrees, Verdict, fuse};
 use serde::Serialize;
 
@@ -12,6 +11,7 @@ use crate::answer::{PairAnswer, SCHEMA};
 use crate::args::MergeArgs;
 use crate::ending::Ending;
 use crate::input::{Input, MapFile};
+use crate::output::Staged;
 use crate::progress::Bar;
 use crate::search::{check, search};
 use crate::tags::logs_of;
@@ -53,6 +53,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     check(&args.search, &logs)?;
     let inputs = [Input::read(target, quiet)?, Input::read(source, quiet)?];
     check_outputs(args, &inputs, logs.iter().flatten().map(AsRef::as_ref))?;
+    check_names(args)?;
 
     let bar = Bar::start("merging", quiet);
     let part = Stage::new(&bar, 0.0, 0.8);
@@ -66,13 +67,13 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     drop(bar);
     let merged = fused.as_ref().map(|(_, merged)| merged);
 
-    if let Some(merged) = merged {
-        let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };
-        write_map(&args.output, &merged.map, &options)?;
-    }
+    // The map lies ready before anything is in place, and is put there last.
+    let staged = merged
+        .map(|merged| Staged::write(&args.output, &merged.map, args.force, quiet))
+        .transpose()?;
     match (&args.overlay, overlay) {
         (Some(path), Some(png)) => {
-            write_file(path, &png, args.force)?;
+            output::write(path, &png, args.force)?;
             if pair.report.verdict() != Verdict::Merged && !quiet {
                 let path = path.display();
                 terminal::warning(&format!("{path} shows the best transform, which was refused"));
@@ -96,10 +97,37 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     };
     let json = serde_json::to_string_pretty(&answer)? + "\n";
     if let Some(path) = &args.report {
-        write_file(path, json.as_bytes(), args.force)?;
+        output::write(path, json.as_bytes(), args.force)?;
     }
-    terminal::result(&if args.search.json { json } else { said(&answer, merged, args) })?;
+    let is_written = staged.map(Staged::put_in_place).transpose()?.is_some();
+    let text = if args.search.json { json } else { said(&answer, merged, args) };
+    if side_outputs(args).any(output::is_standard) {
+        terminal::note(&text);
+    } else if let Err(error) = terminal::result(&text) {
+        let output = args.output.display();
+        return Err(if is_written {
+            error.context(format!("{output} was written"))
+        } else {
+            error
+        });
+    }
     Ok(ending)
+}
+
+/// The outputs beside the map.
+fn side_outputs(args: &MergeArgs) -> impl Iterator<Item = &Path> {
+    [&args.report, &args.overlay].into_iter().flatten().map(AsRef::as_ref)
+}
+
+/// Makes sure that the outputs are named as what they are.
+fn check_names(args: &MergeArgs) -> Result<(), UsageError> {
+    output::check_map(&args.output)?;
+    args.overlay.as_deref().map_or(Ok(()), output::check_picture)?;
+    if args.search.json && side_outputs(args).any(output::is_standard) {
+        let message = "--json takes standard output; name a file for the other output";
+        return Err(UsageError(message.to_owned()));
+    }
+    Ok(())
 }
 
 fn check_outputs<'a>(
@@ -109,7 +137,7 @@ fn check_outputs<'a>(
 ) -> anyhow::Result<()> {
     let image = output::image_of(&args.output);
     let mut outputs = vec![args.output.as_path(), &image];
-    outputs.extend([&args.report, &args.overlay].into_iter().flatten().map(AsRef::<Path>::as_ref));
+    outputs.extend(side_outputs(args));
     let inputs: Vec<&Path> = inputs.iter().flat_map(Input::paths).chain(logs).collect();
     output::check(&outputs, &inputs, args.force)
 }

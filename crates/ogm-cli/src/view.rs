@@ -1,7 +1,6 @@
 //! `ogm view`: maps as pictures.
 
 use anyhow::Context;
-use ogm_io::write_file;
 use ogm_view::{occupancy, overlay, png};
 
 use crate::args::ViewArgs;
@@ -16,6 +15,7 @@ pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
     let inputs: Vec<_> = [Some(&target), source.as_ref()].into_iter().flatten().collect();
     let paths: Vec<_> = inputs.iter().flat_map(|input| input.paths()).collect();
     output::check(&[&args.output], &paths, args.force)?;
+    output::check_picture(&args.output)?;
     let _progress = Wheel::start("drawing", args.quiet);
     let cannot_draw = || format!("cannot draw {}", args.output.display());
     let picture = match source.as_ref().zip(args.target_from_source) {
@@ -24,6 +24,6 @@ pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
         }
         None => occupancy(target.map()),
     };
-    write_file(&args.output, &png(&picture).with_context(cannot_draw)?, args.force)?;
+    output::write(&args.output, &png(&picture).with_context(cannot_draw)?, args.force)?;
     Ok(Ending::Done)
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ogm_core::GridError;
+use ogm_core::{Cancelled, GridError};
 
 use crate::tag_columns::TAG_LOG_HEADER;
 
@@ -61,6 +61,9 @@ pub enum IoError {
         /// What is wrong with it.
         cause: TagLogError,
     },
+    /// Cancelled while writing; what was there is as it was.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The output exists and overwriting was not asked for.
     #[error("{} exists; name another output or ask to overwrite it", path.display())]
     Exists {

@@ -6,7 +6,8 @@ use std::time::Duration;
 
 use ogm_core::{GridFrame, MAX_CELLS, OccupancyGrid};
 
-use crate::disk::read_at_most;
+use crate::bounded::read_at_most;
+use crate::lock::is_locked;
 use crate::{IoError, MapHeader, MapWarning, ReadOptions};
 
 /// A map YAML has seven keys; 64 KiB of them are something else.
@@ -15,8 +16,10 @@ const MAX_YAML_BYTES: u64 = 1 << 16;
 const MAX_IMAGE_BYTES: u64 = 4 * MAX_CELLS as u64;
 
 /// How often, and how long apart, a map that is just being replaced is looked at again.
-const ATTEMPTS: usize = 40;
-const PAUSE: Duration = Duration::from_millis(50);
+const ATTEMPTS: usize = 400;
+const PAUSE: Duration = Duration::from_millis(5);
+/// How often in a row neither a YAML nor its writer is there where there is none.
+const ABSENCES: usize = 3;
 
 /// A map as it was read, and what was noticed on the way.
 #[derive(Debug, Clone, PartialEq)]
@@ -49,17 +52,24 @@ impl MapFiles {
     /// # Errors
     /// A file that cannot be opened, a YAML that [`MapHeader::parse`] refuses.
     pub fn read(yaml: &Path) -> Result<Self, IoError> {
-        let mut text = read_yaml(yaml)?;
+        let (mut before, mut absences) = (None, 0);
         for _ in 0..ATTEMPTS {
-            let read = Self::behind(yaml, &text);
-            match read_yaml(yaml) {
-                Ok(now) if now == text => return read,
-                Ok(now) => text = now,
+            let read = before.as_deref().map(|text| Self::behind(yaml, text));
+            match (read, read_yaml(yaml)) {
+                (Some(read), Ok(now)) if before.as_ref() == Some(&now) => return read,
+                (_, Ok(now)) => (before, absences) = (Some(now), 0),
                 // Our own writer takes the YAML away while it replaces the image.
-                Err(IoError::Access { cause, .. }) if cause.kind() == ErrorKind::NotFound => {
-                    std::thread::sleep(PAUSE);
+                (_, Err(IoError::Access { cause, .. }))
+                    if cause.kind() == ErrorKind::NotFound && absences < ABSENCES =>
+                {
+                    before = None;
+                    if is_locked(yaml) {
+                        std::thread::sleep(PAUSE);
+                    } else {
+                        absences += 1;
+                    }
                 }
-                Err(error) => return Err(error),
+                (_, Err(error)) => return Err(error),
             }
         }
         let cause = io::Error::new(ErrorKind::ResourceBusy, "it is being replaced again and again");

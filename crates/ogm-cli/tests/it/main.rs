@@ -8,8 +8,10 @@ mod files;
 #[cfg(unix)]
 mod interrupt;
 mod merge;
+mod outputs;
 mod pictures;
 mod untagged;
+mod writers;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -12,6 +12,7 @@ mod malformed;
 mod modes;
 mod round_trip;
 mod tags;
+mod writers;
 
 use ogm_core::{GridFrame, OccupancyGrid, Se2};
 use ogm_io::{MapHeader, MapImageError, MapWarning, ReadOptions};

@@ -6,12 +6,14 @@ use grid_merge::{FusionParams, transform_grid};
 use crate::args::ApplyArgs;
 use crate::ending::Ending;
 use crate::input::Input;
+use crate::memory::Work;
 use crate::output::Staged;
 use crate::progress::Bar;
 use crate::{output, terminal, text};
 
 pub(crate) fn run(args: &ApplyArgs) -> anyhow::Result<Ending> {
-    let input = Input::read(&args.map, args.quiet)?;
+    args.reading.check_memory(&[&args.map], Work::Moving)?;
+    let input = Input::read(&args.map, &args.reading, args.quiet)?;
     let image = output::image_of(&args.output);
     output::check(&[&args.output, &image], &input.paths(), args.force)?;
     output::check_map(&args.output)?;

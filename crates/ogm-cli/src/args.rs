@@ -7,6 +7,7 @@ use ogm_core::Se2;
 use ogm_merge::{FusionRule, Method, TagMethod};
 
 use crate::pose::{Sigma, transform};
+use crate::reading::ReadingArgs;
 
 const EXIT_CODES: &str = "Exit codes:
   0  done; for align and merge: the maps match
@@ -46,6 +47,8 @@ pub(crate) struct AlignArgs {
     #[arg(value_name = "B.yaml")]
     pub(crate) source: PathBuf,
     #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
+    #[command(flatten)]
     pub(crate) search: SearchArgs,
 }
 
@@ -75,6 +78,8 @@ pub(crate) struct MergeArgs {
     /// Overwrites existing outputs; never an input
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) search: SearchArgs,
 }
@@ -120,6 +125,8 @@ pub(crate) struct InfoArgs {
     /// The map
     #[arg(value_name = "MAP.yaml")]
     pub(crate) map: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// Prints the result as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -130,6 +137,8 @@ pub(crate) struct ApplyArgs {
     /// The map
     #[arg(value_name = "B.yaml")]
     pub(crate) map: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// Maps points of the map into the frame that it is written in
     #[arg(long = "transform", value_name = "X,Y,DEG", allow_hyphen_values = true)]
     #[arg(value_parser = transform)]
@@ -162,6 +171,8 @@ pub(crate) struct ViewArgs {
     )]
     #[arg(requires = "source", value_parser = transform)]
     pub(crate) target_from_source: Option<Se2>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// The picture
     #[arg(short, long, value_name = "OUT.png")]
     pub(crate) output: PathBuf,

@@ -10,10 +10,12 @@ mod ending;
 mod info;
 mod input;
 mod interrupt;
+mod memory;
 mod merge;
 mod output;
 mod pose;
 mod progress;
+mod reading;
 mod search;
 mod tags;
 mod terminal;
@@ -34,7 +36,7 @@ use crate::ending::Ending;
 use crate::usage::UsageError;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::parse_from(reading::with_pictures_as_maps(std::env::args_os()));
     let ended = interrupt::install().and_then(|()| match &cli.command {
         Command::Align(args) => align::run(args),
         Command::Merge(args) => merge::run(args),

@@ -11,6 +11,7 @@ use crate::answer::{PairAnswer, SCHEMA};
 use crate::args::MergeArgs;
 use crate::ending::Ending;
 use crate::input::{Input, MapFile};
+use crate::memory::Work;
 use crate::output::Staged;
 use crate::progress::Bar;
 use crate::search::{check, search};
@@ -51,7 +52,9 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let quiet = args.search.quiet;
     let logs = logs_of(&[target, source], &args.search.tags)?;
     check(&args.search, &logs)?;
-    let inputs = [Input::read(target, quiet)?, Input::read(source, quiet)?];
+    args.reading.check_memory(&[target, source], Work::Matching)?;
+    let read = |map| Input::read(map, &args.reading, quiet);
+    let inputs = [read(target)?, read(source)?];
     check_outputs(args, &inputs, logs.iter().flatten().map(AsRef::as_ref))?;
     check_names(args)?;
 

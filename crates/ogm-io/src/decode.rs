@@ -14,7 +14,15 @@ pub(crate) fn decode(bytes: Vec<u8>) -> Result<Raster, MapImageError> {
         Some(Format::Bmp) => codec::bmp(&bytes),
         Some(Format::Jpeg) => codec::jpeg(&bytes),
         Some(Format::Tiff) => codec::tiff(&bytes),
-        None if is_lfs_pointer(&bytes) => Err(MapImageError::LfsPointer),
-        None => Err(MapImageError::Format { start: excerpt(&bytes) }),
+        None => Err(unknown(&bytes)),
+    }
+}
+
+/// What bytes are that are no image.
+pub(crate) fn unknown(bytes: &[u8]) -> MapImageError {
+    if is_lfs_pointer(bytes) {
+        MapImageError::LfsPointer
+    } else {
+        MapImageError::Format { start: excerpt(bytes) }
     }
 }

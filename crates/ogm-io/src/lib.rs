@@ -43,6 +43,7 @@ mod map;
 mod png;
 mod pnm;
 mod raster;
+mod size;
 mod tag_columns;
 mod tags;
 mod target;
@@ -58,6 +59,7 @@ pub use header::{MapHeader, MapMode};
 pub use map::{LoadedMap, MapFiles, read_map, read_map_with};
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
+pub use size::MapSize;
 pub use tag_columns::TAG_LOG_HEADER;
 pub use tags::{parse_tags, read_tags, write_tags};
 pub use text::TextEncoding;

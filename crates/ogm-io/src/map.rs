@@ -8,7 +8,7 @@ use ogm_core::{GridFrame, MAX_CELLS, OccupancyGrid};
 
 use crate::bounded::read_at_most;
 use crate::lock::is_locked;
-use crate::{IoError, MapHeader, MapWarning, ReadOptions};
+use crate::{IoError, MapHeader, MapSize, MapWarning, ReadOptions};
 
 /// A map YAML has seven keys; 64 KiB of them are something else.
 const MAX_YAML_BYTES: u64 = 1 << 16;
@@ -90,6 +90,18 @@ impl MapFiles {
                 .map_err(|cause| access(image, cause))?,
             warnings: vec![MapWarning::NoYaml { occupied_thresh, free_thresh }],
         })
+    }
+
+    /// The size of the map that the YAML file `yaml` describes, without reading its image.
+    ///
+    /// # Errors
+    /// As [`read`](Self::read), and an image that has no size.
+    pub fn size(yaml: &Path) -> Result<MapSize, IoError> {
+        let (header, _) = MapHeader::parse(&read_yaml(yaml)?)
+            .map_err(|cause| IoError::Yaml { path: yaml.to_owned(), cause })?;
+        let mut places = places(yaml, &header.image);
+        let found = places.iter().position(|place| place.is_file());
+        MapSize::of_image(&places.swap_remove(found.unwrap_or(0)))
     }
 
     /// The image file, byte for byte.

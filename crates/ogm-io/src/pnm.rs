@@ -11,11 +11,7 @@ use crate::raster::{Channels, Raster, Samples};
 /// Decodes P1 to P6, up to 16 bit; nothing much larger than the file is allocated, and of a raw
 /// 8-bit file nothing at all.
 pub(crate) fn decode(bytes: Vec<u8>) -> Result<Raster, MapImageError> {
-    let kind = match bytes[..] {
-        [b'P', digit @ b'1'..=b'6', next, ..] if ends_token(next) => digit - b'0',
-        _ => return Err(MapImageError::Format { start: excerpt(&bytes) }),
-    };
-    let mut cursor = Cursor { rest: &bytes[2..] };
+    let (kind, mut cursor) = start(&bytes)?;
     let width = cursor.header_field("width", usize::MAX)?;
     let height = cursor.header_field("height", usize::MAX)?;
     let cells = cell_count(width, height)?;
@@ -57,6 +53,35 @@ pub(crate) fn decode(bytes: Vec<u8>) -> Result<Raster, MapImageError> {
     match first_above(&samples, max) {
         Some((index, value)) => Err(pixel_error(index, value.to_string(), max)),
         None => Ok(Raster { width, height, max, channels, samples }),
+    }
+}
+
+/// Width, height, and bytes a pixel while its samples become cells, none where it is its cell.
+pub(crate) fn size(head: &[u8]) -> Result<(usize, usize, u64), MapImageError> {
+    let (kind, mut cursor) = start(head)?;
+    let width = cursor.header_field("width", usize::MAX)?;
+    let height = cursor.header_field("height", usize::MAX)?;
+    let is_wide = !matches!(kind, 1 | 4)
+        && cursor.header_field("maximum", usize::from(u16::MAX))? > usize::from(u8::MAX);
+    let pixel = match kind {
+        1 | 4 => 1,
+        2 => 3,
+        3 => 7,
+        5 if !is_wide => 0,
+        5 => 3,
+        _ if is_wide => 7,
+        _ => 1,
+    };
+    Ok((width, height, pixel))
+}
+
+/// Which of the six, and what follows.
+fn start(bytes: &[u8]) -> Result<(u8, Cursor<'_>), MapImageError> {
+    match bytes {
+        [b'P', digit @ b'1'..=b'6', next, ..] if ends_token(*next) => {
+            Ok((digit - b'0', Cursor { rest: &bytes[2..] }))
+        }
+        _ => Err(MapImageError::Format { start: excerpt(bytes) }),
     }
 }
 

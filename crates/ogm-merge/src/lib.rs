@@ -39,6 +39,7 @@ mod error;
 mod evidence;
 #[cfg(feature = "serde")]
 mod json;
+mod memory;
 mod merge;
 mod method;
 mod pair;
@@ -60,6 +61,7 @@ pub use error::MergeError;
 pub use evidence::{TagEvidence, WallAgreement, WallDirection};
 pub use grid_match::{MatchParams, Prior};
 pub use grid_merge::{FusionParams, FusionRule, Merged};
+pub use memory::working_bytes;
 pub use merge::{Component, Member, fuse};
 pub use method::{Method, TagMethod};
 pub use ogm_core;

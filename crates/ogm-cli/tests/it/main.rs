@@ -7,6 +7,7 @@ mod align;
 mod files;
 #[cfg(unix)]
 mod interrupt;
+mod memory;
 mod merge;
 mod outputs;
 mod pictures;

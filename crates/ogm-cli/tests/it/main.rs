@@ -9,6 +9,7 @@ mod files;
 mod interrupt;
 mod memory;
 mod merge;
+mod mutants;
 mod outputs;
 mod pictures;
 mod untagged;

@@ -10,6 +10,7 @@ mod formats;
 mod images;
 mod malformed;
 mod modes;
+mod mutants;
 mod round_trip;
 mod tags;
 mod writers;

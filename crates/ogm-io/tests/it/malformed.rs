@@ -237,11 +237,15 @@ fn png_header(width: u32, height: u32) -> Vec<u8> {
 
 fn chunk(kind: &[u8; 4], data: &[u8]) -> Vec<u8> {
     let body = [&kind[..], data].concat();
-    let checksum = !body.iter().fold(u32::MAX, |crc, &byte| {
+    let length = u32::try_from(data.len()).unwrap().to_be_bytes();
+    [&length[..], &body, &checksum(&body).to_be_bytes()].concat()
+}
+
+/// The CRC-32 of PNG.
+pub(crate) fn checksum(body: &[u8]) -> u32 {
+    !body.iter().fold(u32::MAX, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| {
             if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 }
         })
-    });
-    let length = u32::try_from(data.len()).unwrap().to_be_bytes();
-    [&length[..], &body, &checksum.to_be_bytes()].concat()
+    })
 }

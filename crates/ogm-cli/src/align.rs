@@ -13,7 +13,7 @@ pub(crate) fn run(args: &AlignArgs) -> anyhow::Result<Ending> {
     let logs = logs_of(&[&args.target, &args.source], &args.search.tags)?;
     check(&args.search, &logs)?;
     let quiet = args.search.quiet;
-    args.reading.check_memory(&[&args.target, &args.source], Work::Matching)?;
+    args.reading.check_memory(&[&args.target, &args.source], Work::Aligning)?;
     let target = Input::read(&args.target, &args.reading, quiet)?;
     let source = Input::read(&args.source, &args.reading, quiet)?;
     let answer = {

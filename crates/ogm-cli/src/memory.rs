@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use anyhow::bail;
 use ogm_io::MapSize;
-use ogm_merge::working_bytes;
+use ogm_merge::{aligning_bytes, fusing_bytes};
 
 /// A number of bytes as people write it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -34,7 +34,7 @@ impl FromStr for Bytes {
 }
 
 /// What a command does with its maps.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Work {
     /// Nothing but looking at them.
     Reading,
@@ -43,7 +43,9 @@ pub(crate) enum Work {
     /// A picture of them.
     Drawing,
     /// Searching a transform.
-    Matching,
+    Aligning,
+    /// The same, and one map of them, of which a cell of the first map becomes so many.
+    Merging { refined: f64 },
 }
 
 /// Refuses what `work` on maps of these sizes would take beyond the limit.
@@ -72,14 +74,16 @@ fn need(maps: &[MapSize], work: Work) -> u64 {
     let cells = |maps: &[MapSize]| maps.iter().map(MapSize::cells).sum::<u64>();
     let reading = (0..maps.len()).map(|at| cells(&maps[..at]) + maps[at].reading_bytes).max();
     let all = cells(maps);
+    let each: Vec<u64> = maps.iter().map(MapSize::cells).collect();
     let beyond = match work {
         Work::Reading => 0,
         // Turned by an eighth, a square needs twice its cells.
         Work::Moving => 2 * all,
         Work::Drawing => PICTURE_BYTES,
-        Work::Matching => {
-            let cells: Vec<u64> = maps.iter().map(MapSize::cells).collect();
-            working_bytes(&cells)
+        Work::Aligning => aligning_bytes(&each),
+        Work::Merging { refined } => {
+            let largest = each.iter().copied().max().unwrap_or(0);
+            aligning_bytes(&each).max(fusing_bytes(largest, refined))
         }
     };
     reading.unwrap_or(0).max(all.saturating_add(beyond)).saturating_add(BASE_BYTES)
@@ -177,8 +181,9 @@ mod tests {
         let needs = [
             need(&[map(1000)], Work::Reading),
             need(&[map(1000)], Work::Moving),
-            need(&[map(1000), map(1000)], Work::Matching),
-            need(&[map(2000), map(1000)], Work::Matching),
+            need(&[map(1000), map(1000)], Work::Aligning),
+            need(&[map(2000), map(1000)], Work::Aligning),
+            need(&[map(2000), map(1000)], Work::Merging { refined: 16.0 }),
         ];
         assert!(needs.is_sorted_by(|a, b| a < b), "{needs:?}");
     }
@@ -186,10 +191,10 @@ mod tests {
     #[test]
     fn a_refusal_says_both_numbers() {
         let maps = [map(20_000), map(20_000)];
-        let error = check(&maps, Work::Matching, Some(Bytes(1 << 30))).unwrap_err().to_string();
+        let error = check(&maps, Work::Aligning, Some(Bytes(1 << 30))).unwrap_err().to_string();
         for part in ["20000 x 20000", "1.00 GiB", "--max-memory"] {
             assert!(error.contains(part), "{error}");
         }
-        check(&[map(100)], Work::Matching, Some(Bytes(1 << 30))).unwrap();
+        check(&[map(100)], Work::Aligning, Some(Bytes(1 << 30))).unwrap();
     }
 }

@@ -52,7 +52,8 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let quiet = args.search.quiet;
     let logs = logs_of(&[target, source], &args.search.tags)?;
     check(&args.search, &logs)?;
-    args.reading.check_memory(&[target, source], Work::Matching)?;
+    let refined = args.reading.refinement(target, args.resolution);
+    args.reading.check_memory(&[target, source], Work::Merging { refined })?;
     let read = |map| Input::read(map, &args.reading, quiet);
     let inputs = [read(target)?, read(source)?];
     check_outputs(args, &inputs, logs.iter().flatten().map(AsRef::as_ref))?;

@@ -6,7 +6,7 @@ use std::str::FromStr;
 
 use clap::Args;
 use ogm_core::{GridFrame, Se2};
-use ogm_io::{MapFiles, MapSize};
+use ogm_io::{IoError, MapFiles, MapSize};
 use ogm_merge::PoseDegrees;
 
 use crate::memory::{self, Bytes, Work};
@@ -33,7 +33,7 @@ struct Picture {
 
 impl ReadingArgs {
     /// The files of a map.
-    pub(crate) fn files(&self, map: &Path) -> Result<MapFiles, ogm_io::IoError> {
+    pub(crate) fn files(&self, map: &Path) -> Result<MapFiles, IoError> {
         match self.frame_of(map) {
             Some(frame) => MapFiles::read_picture(map, frame),
             None => MapFiles::read(map),
@@ -44,12 +44,24 @@ impl ReadingArgs {
     ///
     /// Maps that cannot be read are left to their reading.
     pub(crate) fn check_memory(&self, maps: &[&Path], work: Work) -> anyhow::Result<()> {
-        let size = |map: &&Path| match self.frame_of(map) {
-            Some(_) => MapSize::of_image(map),
-            None => MapFiles::size(map),
-        };
-        let sizes: Vec<MapSize> = maps.iter().filter_map(|map| size(map).ok()).collect();
+        let sizes: Vec<MapSize> =
+            maps.iter().filter_map(|map| Some(self.size(map).ok()?.0)).collect();
         memory::check(&sizes, work, self.max_memory)
+    }
+
+    /// How many cells of `resolution`, if given, a cell of `map` becomes.
+    pub(crate) fn refinement(&self, map: &Path, resolution: Option<f64>) -> f64 {
+        match (resolution, self.size(map)) {
+            (Some(resolution), Ok((_, frame))) => (frame.resolution() / resolution).powi(2),
+            _ => 1.0,
+        }
+    }
+
+    fn size(&self, map: &Path) -> Result<(MapSize, GridFrame), IoError> {
+        match self.frame_of(map) {
+            Some(frame) => Ok((MapSize::of_image(map)?, frame)),
+            None => MapFiles::size(map),
+        }
     }
 
     fn frame_of(&self, map: &Path) -> Option<GridFrame> {

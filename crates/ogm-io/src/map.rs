@@ -92,16 +92,18 @@ impl MapFiles {
         })
     }
 
-    /// The size of the map that the YAML file `yaml` describes, without reading its image.
+    /// The size of the map that the YAML file `yaml` describes and where it lies, without reading
+    /// its image.
     ///
     /// # Errors
     /// As [`read`](Self::read), and an image that has no size.
-    pub fn size(yaml: &Path) -> Result<MapSize, IoError> {
+    pub fn size(yaml: &Path) -> Result<(MapSize, GridFrame), IoError> {
         let (header, _) = MapHeader::parse(&read_yaml(yaml)?)
             .map_err(|cause| IoError::Yaml { path: yaml.to_owned(), cause })?;
         let mut places = places(yaml, &header.image);
         let found = places.iter().position(|place| place.is_file());
-        MapSize::of_image(&places.swap_remove(found.unwrap_or(0)))
+        let size = MapSize::of_image(&places.swap_remove(found.unwrap_or(0)))?;
+        Ok((size, header.frame))
     }
 
     /// The image file, byte for byte.

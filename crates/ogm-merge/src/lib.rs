@@ -61,7 +61,7 @@ pub use error::MergeError;
 pub use evidence::{TagEvidence, WallAgreement, WallDirection};
 pub use grid_match::{MatchParams, Prior};
 pub use grid_merge::{FusionParams, FusionRule, Merged};
-pub use memory::working_bytes;
+pub use memory::{aligning_bytes, fusing_bytes};
 pub use merge::{Component, Member, fuse};
 pub use method::{Method, TagMethod};
 pub use ogm_core;

@@ -159,9 +159,6 @@ fn places(yaml: &Path, named: &Path) -> Vec<PathBuf> {
         }
     };
     let text = named.to_string_lossy();
-    if let (Ok(rest), Some(home)) = (named.strip_prefix("~"), std::env::home_dir()) {
-        add(home.join(rest));
-    }
     if let Some(name) = text.rsplit(['/', '\\']).next().filter(|name| !name.is_empty()) {
         add(folder.join(name));
     }

@@ -134,7 +134,9 @@ fn groups() -> Option<u64> {
         let (controllers, path) = (parts.next()?, parts.next()?);
         let (root, most, used) = match controllers {
             "" => ("/sys/fs/cgroup", "memory.max", "memory.current"),
-            "memory" => ("/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes"),
+            joint if joint.split(',').any(|controller| controller == "memory") => {
+                ("/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes")
+            }
             _ => continue,
         };
         // In a container the path may be one of the host; the root then is the container's own.

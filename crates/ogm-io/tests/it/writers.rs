@@ -24,6 +24,15 @@ fn assert_whole(found: &OccupancyGrid) {
     assert!((0..2).any(|number| *found == numbered(number)), "{found:?}");
 }
 
+/// Ends the writers, however the reading ends.
+struct Ending<'a>(&'a AtomicBool);
+
+impl Drop for Ending<'_> {
+    fn drop(&mut self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+}
+
 /// Reads while two writers take turns, as often as asked for.
 fn read_while_writing(reads: usize) {
     let folder = tempfile::tempdir().unwrap();
@@ -39,6 +48,7 @@ fn read_while_writing(reads: usize) {
                 }
             });
         }
+        let _ending = Ending(&ended);
         let mut gaps = 0;
         for _ in 0..reads {
             match read_map(&yaml) {
@@ -51,7 +61,6 @@ fn read_while_writing(reads: usize) {
                 Err(error) => panic!("{error}"),
             }
         }
-        ended.store(true, Ordering::Relaxed);
         assert!(gaps <= reads / 100, "{gaps} of {reads} reads found no map");
     });
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 2);

@@ -11,7 +11,7 @@ const HOMES: [(&str, &[&str]); 5] = [
     ("faer", &["pose-graph2d"]),
     ("parry2d", &["icp2d"]),
     ("image", &["ogm-io", "ogm-view", "ogm-bench", "ogm-eval"]),
-    ("serde-saphyr", &["ogm-io"]),
+    ("granit-parser", &["ogm-io"]),
     ("wait4", &["ogm-eval"]),
 ];
 
@@ -144,7 +144,7 @@ mod tests {
             ("xtask", "parry2d", normal()),
             ("xtask", "image", normal()),
             ("xtask", "wait4", normal()),
-            ("xtask", "serde-saphyr", normal()),
+            ("xtask", "granit-parser", normal()),
             ("ogm-merge", "faer", normal()),
         ] {
             let found = violations(&edge(from, to, kind.clone()));
@@ -169,7 +169,7 @@ mod tests {
             ("ogm-eval", "ogm-merge", normal()),
             ("ogm-eval", "image", normal()),
             ("xtask", "ogm-eval", normal()),
-            ("ogm-io", "serde-saphyr", normal()),
+            ("ogm-io", "granit-parser", normal()),
             ("icp2d", "parry2d", normal()),
         ] {
             let found = violations(&edge(from, to, kind));

@@ -3,6 +3,7 @@
 use crate::args::AlignArgs;
 use crate::ending::Ending;
 use crate::input::Input;
+use crate::memory::Work;
 use crate::progress::Bar;
 use crate::search::{check, search};
 use crate::tags::logs_of;
@@ -12,8 +13,9 @@ pub(crate) fn run(args: &AlignArgs) -> anyhow::Result<Ending> {
     let logs = logs_of(&[&args.target, &args.source], &args.search.tags)?;
     check(&args.search, &logs)?;
     let quiet = args.search.quiet;
-    let target = Input::read(&args.target, quiet)?;
-    let source = Input::read(&args.source, quiet)?;
+    args.reading.check_memory(&[&args.target, &args.source], Work::Aligning)?;
+    let target = Input::read(&args.target, &args.reading, quiet)?;
+    let source = Input::read(&args.source, &args.reading, quiet)?;
     let answer = {
         let bar = Bar::start("aligning", quiet);
         search([&target, &source], &logs, &args.search, &bar)?

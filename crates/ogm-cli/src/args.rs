@@ -7,6 +7,7 @@ use ogm_core::Se2;
 use ogm_merge::{AlignParams, FusionRule, Method, TagMethod, WalkObjective};
 
 use crate::pose::{Sigma, transform};
+use crate::reading::ReadingArgs;
 
 const EXIT_CODES: &str = "Exit codes:
   0  done; for align and merge: the maps match
@@ -47,6 +48,8 @@ pub(crate) struct AlignArgs {
     /// The map to be laid on it
     #[arg(value_name = "B.yaml")]
     pub(crate) source: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) search: SearchArgs,
 }
@@ -93,6 +96,8 @@ pub(crate) struct MergeArgs {
     /// Overwrites existing outputs; never an input
     #[arg(long)]
     pub(crate) force: bool,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     #[command(flatten)]
     pub(crate) search: SearchArgs,
 }
@@ -147,6 +152,8 @@ pub(crate) struct InfoArgs {
     /// The map
     #[arg(value_name = "MAP.yaml")]
     pub(crate) map: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// Prints the result as JSON
     #[arg(long)]
     pub(crate) json: bool,
@@ -157,6 +164,8 @@ pub(crate) struct ApplyArgs {
     /// The map
     #[arg(value_name = "B.yaml")]
     pub(crate) map: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// Maps points of the map into the frame that it is written in
     #[arg(long = "transform", value_name = "X,Y,DEG", allow_hyphen_values = true)]
     #[arg(value_parser = transform)]
@@ -177,6 +186,8 @@ pub(crate) struct StraightenArgs {
     /// The map
     #[arg(value_name = "MAP.yaml")]
     pub(crate) map: PathBuf,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// The turned map; its image goes beside it
     #[arg(short, long, value_name = "OUT.yaml")]
     pub(crate) output: PathBuf,
@@ -205,6 +216,8 @@ pub(crate) struct ViewArgs {
     )]
     #[arg(requires = "source", value_parser = transform)]
     pub(crate) target_from_source: Option<Se2>,
+    #[command(flatten)]
+    pub(crate) reading: ReadingArgs,
     /// The picture
     #[arg(short, long, value_name = "OUT.png")]
     pub(crate) output: PathBuf,

@@ -11,6 +11,7 @@ use crate::answer::SCHEMA;
 use crate::args::InfoArgs;
 use crate::ending::Ending;
 use crate::input::Input;
+use crate::memory::Work;
 use crate::progress::Wheel;
 use crate::terminal;
 
@@ -44,7 +45,8 @@ struct Counts {
 pub(crate) fn run(args: &InfoArgs) -> anyhow::Result<Ending> {
     let input = {
         let _progress = Wheel::start("reading", false);
-        Input::read_silently(&args.map)?
+        args.reading.check_memory(&[&args.map], Work::Reading)?;
+        Input::read_silently(&args.map, &args.reading)?
     };
     let info = Info::of(&input);
     let text = if args.json { serde_json::to_string_pretty(&info)? + "\n" } else { info.text() };

@@ -1,16 +1,15 @@
 //! Maps as they are handed in.
 
-use std::fs::File;
-use std::io;
 use std::path::{Path, PathBuf};
 
-use anyhow::Context;
+use anyhow::anyhow;
 use ogm_core::OccupancyGrid;
-use ogm_io::{LoadedMap, read_map};
+use ogm_io::{IoError, LoadedMap, ReadOptions, YamlError};
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::progress::Wheel;
+use crate::reading::ReadingArgs;
 use crate::terminal;
 
 /// Which map a report is about.
@@ -32,10 +31,10 @@ pub(crate) struct Input {
 
 impl Input {
     /// Reads a map; says what is suspicious about it unless `quiet`.
-    pub(crate) fn read(yaml: &Path, quiet: bool) -> anyhow::Result<Self> {
+    pub(crate) fn read(yaml: &Path, reading: &ReadingArgs, quiet: bool) -> anyhow::Result<Self> {
         let input = {
             let _progress = Wheel::start("reading", quiet);
-            Self::read_silently(yaml)?
+            Self::read_silently(yaml, reading)?
         };
         if !quiet {
             for warning in &input.loaded.warnings {
@@ -46,10 +45,10 @@ impl Input {
     }
 
     /// Reads a map.
-    pub(crate) fn read_silently(yaml: &Path) -> anyhow::Result<Self> {
-        let loaded = read_map(yaml)?;
-        let sha256 = sha256(&loaded.image)
-            .with_context(|| format!("cannot read {}", loaded.image.display()))?;
+    pub(crate) fn read_silently(yaml: &Path, reading: &ReadingArgs) -> anyhow::Result<Self> {
+        let files = reading.files(yaml).map_err(with_remedy)?;
+        let sha256 = sha256(files.image_bytes());
+        let loaded = files.decode(&ReadOptions::default())?;
         Ok(Self { yaml: yaml.to_owned(), loaded, sha256 })
     }
 
@@ -71,21 +70,23 @@ impl Input {
     }
 }
 
-fn sha256(path: &Path) -> io::Result<String> {
-    let mut hash = Hasher(Sha256::new());
-    io::copy(&mut File::open(path)?, &mut hash)?;
-    Ok(hash.0.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+/// Says how an image is read that has no YAML.
+fn with_remedy(error: IoError) -> anyhow::Error {
+    let IoError::Yaml { path, cause: YamlError::Image } = &error else {
+        return error.into();
+    };
+    let image = path.display();
+    let yaml = path.with_extension("yaml");
+    let beside = if yaml.is_file() {
+        format!("name its YAML, {}", yaml.display())
+    } else {
+        "name its YAML".to_owned()
+    };
+    anyhow!(
+        "{image} is an image: {beside}, or say how many metres a cell has: --input {image}=0.05"
+    )
 }
 
-struct Hasher(Sha256);
-
-impl io::Write for Hasher {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.0.update(bytes);
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
-    }
+fn sha256(bytes: &[u8]) -> String {
+    Sha256::digest(bytes).iter().map(|byte| format!("{byte:02x}")).collect()
 }

@@ -11,6 +11,7 @@ mod ending;
 mod info;
 mod input;
 mod interrupt;
+mod memory;
 mod merge;
 mod merged;
 mod named;
@@ -18,6 +19,7 @@ mod output;
 mod placing;
 mod pose;
 mod progress;
+mod reading;
 mod search;
 mod straighten;
 mod tags;
@@ -31,6 +33,7 @@ use std::process::ExitCode;
 use clap::Parser;
 use grid_merge::FusionError;
 use ogm_core::Cancelled;
+use ogm_io::IoError;
 use ogm_merge::MergeError;
 
 use crate::args::{Cli, Command};
@@ -38,7 +41,7 @@ use crate::ending::Ending;
 use crate::usage::UsageError;
 
 fn main() -> ExitCode {
-    let cli = Cli::parse();
+    let cli = Cli::parse_from(reading::with_pictures_as_maps(std::env::args_os()));
     let ended = interrupt::install().and_then(|()| match &cli.command {
         Command::Align(args) => align::run(args),
         Command::Merge(args) => merge::run(args),
@@ -70,5 +73,6 @@ fn is_cancelled(error: &anyhow::Error) -> bool {
         cause.is::<Cancelled>()
             || cause.downcast_ref::<MergeError>().is_some_and(MergeError::is_cancelled)
             || matches!(cause.downcast_ref(), Some(FusionError::Cancelled(_)))
+            || matches!(cause.downcast_ref(), Some(IoError::Cancelled(_)))
     })
 }

@@ -4,21 +4,22 @@ use std::path::Path;
 
 use anyhow::Context;
 use ogm_core::{Progress, Stage};
-use ogm_io::{WriteOptions, write_file, write_map};
 use ogm_merge::{Component, FusionParams, Merged, Verdict, fuse};
 
 use crate::answer::SCHEMA;
 use crate::args::MergeArgs;
 use crate::ending::Ending;
 use crate::input::Input;
+use crate::memory::Work;
 use crate::merged::{MergeAnswer, MergedMap};
 use crate::named::transforms_of;
+use crate::output::Staged;
 use crate::placing::Placing;
 use crate::progress::Bar;
 use crate::search::check;
 use crate::tags::logs_of;
 use crate::usage::UsageError;
-use crate::{drawn, output, terminal, text};
+use crate::{drawn, html, output, terminal, text};
 
 pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let names: Vec<&Path> = args.maps.iter().map(AsRef::as_ref).collect();
@@ -33,9 +34,12 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     }
     let logs = logs_of(&names, &args.search.tags)?;
     check(&args.search, &logs)?;
-    let inputs =
-        names.iter().map(|name| Input::read(name, quiet)).collect::<anyhow::Result<Vec<_>>>()?;
+    let refined = args.reading.refinement(names[0], args.resolution);
+    args.reading.check_memory(&names, Work::Merging { refined })?;
+    let read = |name: &&Path| Input::read(name, &args.reading, quiet);
+    let inputs = names.iter().map(read).collect::<anyhow::Result<Vec<_>>>()?;
     check_outputs(args, &inputs, logs.iter().flatten().map(AsRef::as_ref))?;
+    check_names(args)?;
 
     let bar = Bar::start("merging", quiet);
     let part = Stage::new(&bar, 0.0, 0.8);
@@ -47,14 +51,15 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let pictures = pictures(&inputs, &placing, made.as_ref(), args)?;
     drop(bar);
 
-    if let Some(made) = &made {
-        let options = WriteOptions { overwrite: args.force, ..WriteOptions::default() };
-        write_map(&args.output, &made.merged.map, &options)?;
-    }
+    // The map lies ready before anything is in place, and is put there last.
+    let staged = made
+        .as_ref()
+        .map(|made| Staged::write(&args.output, &made.merged.map, args.force, quiet))
+        .transpose()?;
     for picture in pictures {
         let path = picture.path.display();
         if let Some(png) = picture.png {
-            write_file(picture.path, &png, args.force)?;
+            output::write(picture.path, &png, args.force)?;
         }
         if let Some(remark) = picture.remark.filter(|_| !quiet) {
             terminal::warning(&format!("{path} {remark}"));
@@ -73,11 +78,46 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     };
     let json = serde_json::to_string_pretty(&answer)? + "\n";
     if let Some(path) = &args.report {
-        write_file(path, json.as_bytes(), args.force)?;
+        output::write(path, json.as_bytes(), args.force)?;
     }
+    if let Some(path) = &args.html {
+        let page = page(path, &inputs, &answer, made.as_ref())?;
+        write_file(path, page.as_bytes(), args.force)?;
+    }
+    let is_written = staged.map(Staged::put_in_place).transpose()?.is_some();
     let said = || text::merge(&answer, made.as_ref().map(|made| &made.merged), args);
-    terminal::result(&if args.search.json { json } else { said() })?;
+    let text = if args.search.json { json } else { said() };
+    if side_outputs(args).any(output::is_standard) {
+        terminal::note(&text);
+    } else if let Err(error) = terminal::result(&text) {
+        let output = args.output.display();
+        return Err(if is_written {
+            error.context(format!("{output} was written"))
+        } else {
+            error
+        });
+    }
     Ok(ending)
+}
+
+fn pictures_asked(args: &MergeArgs) -> impl Iterator<Item = &Path> {
+    [&args.overlay, &args.conflicts, &args.provenance].into_iter().flatten().map(AsRef::as_ref)
+}
+
+/// The outputs beside the map.
+fn side_outputs(args: &MergeArgs) -> impl Iterator<Item = &Path> {
+    args.report.as_deref().into_iter().chain(pictures_asked(args))
+}
+
+/// Makes sure that the outputs are named as what they are.
+fn check_names(args: &MergeArgs) -> Result<(), UsageError> {
+    output::check_map(&args.output)?;
+    pictures_asked(args).try_for_each(output::check_picture)?;
+    if args.search.json && side_outputs(args).any(output::is_standard) {
+        let message = "--json takes standard output; name a file for the other output";
+        return Err(UsageError(message.to_owned()));
+    }
+    Ok(())
 }
 
 /// What was made of the maps.
@@ -95,6 +135,23 @@ struct Picture<'a> {
     remark: Option<&'static str>,
 }
 
+fn page(
+    path: &Path,
+    inputs: &[Input],
+    answer: &MergeAnswer,
+    made: Option<&Made<'_>>,
+) -> anyhow::Result<String> {
+    let overlay = match (made, answer.pairs.first(), inputs) {
+        (None, Some(pair), [target, source]) => {
+            drawn::overlay(path, [target, source], &pair.report)?
+        }
+        _ => None,
+    };
+    let made = made.map(|made| (made.component, &made.merged));
+    html::report(answer, inputs, &html::Shown { made, overlay })
+        .with_context(|| format!("cannot make {}", path.display()))
+}
+
 fn check_outputs<'a>(
     args: &'a MergeArgs,
     inputs: &'a [Input],
@@ -102,7 +159,7 @@ fn check_outputs<'a>(
 ) -> anyhow::Result<()> {
     let image = output::image_of(&args.output);
     let mut outputs = vec![args.output.as_path(), &image];
-    let others = [&args.report, &args.overlay, &args.conflicts, &args.provenance];
+    let others = [&args.report, &args.overlay, &args.conflicts, &args.provenance, &args.html];
     outputs.extend(others.into_iter().flatten().map(AsRef::<Path>::as_ref));
     let inputs: Vec<&Path> = inputs.iter().flat_map(Input::paths).chain(logs).collect();
     output::check(&outputs, &inputs, args.force)

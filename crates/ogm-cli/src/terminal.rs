@@ -13,6 +13,12 @@ pub(crate) fn result(text: &str) -> anyhow::Result<()> {
     }
 }
 
+/// Writes a result to standard error, where standard output is a file's.
+pub(crate) fn note(text: &str) {
+    // Nobody is left to tell if standard error is closed.
+    let _ = io::stderr().write_all(text.as_bytes());
+}
+
 /// Writes an error to standard error.
 pub(crate) fn error(text: &str) {
     say("error", "31", text);

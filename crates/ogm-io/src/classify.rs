@@ -3,7 +3,8 @@
 use ogm_core::{Grid, Occupancy, OccupancyGrid};
 
 use crate::decode::decode;
-use crate::raster::{Pixel, Raster};
+use crate::format::Format;
+use crate::raster::Raster;
 use crate::{MapHeader, MapImageError, MapMode, MapWarning};
 
 /// The grey by which every `map_saver` means unknown.
@@ -16,6 +17,10 @@ pub(crate) const OCCUPIED_GREY: u8 = 0;
 /// A trinary map has three levels and a hand-edited one a few more.
 const TRINARY_LEVELS: usize = 16;
 
+/// Pixels of grey 205 to one of another free shade in a map that was painted into; a map that means
+/// free by shades has many of each.
+const UNKNOWN_TO_SHADES: usize = 20;
+
 /// Where the reading deviates from `map_server` unless told not to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub struct ReadOptions {
@@ -26,84 +31,94 @@ pub struct ReadOptions {
 }
 
 impl MapHeader {
-    /// The map in the bytes of this header's image, PGM (P2, P5) or PNG, rows flipped so that
-    /// row 0 is the lowest.
+    /// The map in the bytes of this header's image, rows flipped so that row 0 is the lowest.
     ///
+    /// PNM (P1 to P6), PNG, BMP, JPEG or TIFF, by content; colours count by their mean.
     /// Trinary: p = 0.90 occupied, 0.10 free, or unknown. Scale: p is 0 below `free_thresh`, 1
     /// above `occupied_thresh`, linear between. Raw: p = pixel / 100.
     ///
     /// # Errors
-    /// Another format, a size over [`ogm_core::MAX_CELLS`], or data that do not fill it; found
-    /// before anything larger than the file is allocated, but for a PNG's own pixels.
+    /// Another format, a size over [`ogm_core::MAX_CELLS`], data that do not fill it, or no memory
+    /// for them; sizes are checked before anything much larger than the file is allocated.
     pub fn read_image(
         &self,
-        image: &[u8],
+        image: Vec<u8>,
         options: &ReadOptions,
     ) -> Result<(OccupancyGrid, Vec<MapWarning>), MapImageError> {
-        let raster = decode(image)?;
         let mut warnings = Vec::new();
-        let mut cells = Vec::with_capacity(raster.width * raster.height);
-        match self.mode {
-            MapMode::Trinary => self.trinary(&raster, options, &mut cells, &mut warnings),
-            MapMode::Scale => {
-                raster.for_each_upwards(|pixel| cells.push(self.scale(&raster, pixel)))
-            }
+        if Format::of(&image) == Some(Format::Jpeg) {
+            warnings.push(MapWarning::Lossy);
+        }
+        let mut raster = decode(image)?;
+        if self.mode == MapMode::Trinary && raster.channels.has_alpha() && options.averaged_alpha {
+            warnings.push(MapWarning::AlphaAveraged);
+            raster = raster.with_alpha_averaged_in()?;
+        }
+        let counts = raster.counts();
+        let cells = match self.mode {
+            MapMode::Trinary => self.trinary(&raster, &counts, options, &mut warnings),
+            MapMode::Scale => of_levels(&counts, |level, white| self.scale(level, white)),
             MapMode::Raw => {
                 if self.negate {
                     warnings.push(MapWarning::NegateIgnored);
                 }
-                raster.for_each_upwards(|pixel| cells.push(raw(&raster, pixel)));
+                of_levels(&counts, raw)
             }
-        }
-        let grid = Grid::new(raster.width, raster.height, cells)?;
+        };
+        let (width, height) = (raster.width, raster.height);
+        let grid = Grid::new(width, height, raster.into_cells(&cells)?)?;
         Ok((OccupancyGrid::new(self.frame, grid), warnings))
     }
 
+    /// What each level means.
     fn trinary(
         &self,
         raster: &Raster,
+        counts: &[usize],
         options: &ReadOptions,
-        cells: &mut Vec<Occupancy>,
         warnings: &mut Vec<MapWarning>,
-    ) {
-        if raster.channels.has_alpha() && options.averaged_alpha {
-            warnings.push(MapWarning::AlphaAveraged);
-            let white = raster.white() + u32::from(raster.max);
-            raster.for_each_upwards(|pixel| {
-                cells.push(self.class(pixel.colour + pixel.alpha.unwrap_or(0), white));
-            });
-            return;
-        }
-        let survey = Survey::of(raster);
+    ) -> Vec<Occupancy> {
         if raster.channels.has_alpha() {
-            warnings.push(MapWarning::AlphaLeftOut { translucent: survey.translucent });
+            let opaque: usize = counts.iter().sum();
+            let translucent = raster.width * raster.height - opaque;
+            warnings.push(MapWarning::AlphaLeftOut { translucent });
         }
-        if survey.levels > TRINARY_LEVELS {
-            warnings.push(MapWarning::GreyLevels { levels: survey.levels });
+        let levels = counts.iter().filter(|&&count| count > 0).count();
+        if levels > TRINARY_LEVELS {
+            warnings.push(MapWarning::GreyLevels { levels });
         }
-        let free_thresh = self.free_thresh;
-        let unknown_level = raster.channels.colours() * u32::from(UNKNOWN_GREY);
-        let suspicious = survey.only_saver_levels
-            && survey.unknown_greys > 0
-            && !self.negate
-            && self.class(unknown_level, raster.white()) == Occupancy::FREE;
-        let rescued = suspicious && !options.literal_205;
-        if suspicious {
-            let cells = survey.unknown_greys;
-            warnings.push(if rescued {
-                MapWarning::GreyReadAsUnknown { free_thresh, cells }
+        let mut cells = of_levels(counts, |level, white| self.class(level, white));
+        if let Some((level, count)) = self.saved_as_unknown(counts, &cells) {
+            let free_thresh = self.free_thresh;
+            warnings.push(if options.literal_205 {
+                MapWarning::GreyReadAsFree { free_thresh, cells: count }
             } else {
-                MapWarning::GreyReadAsFree { free_thresh, cells }
+                cells[level] = Occupancy::UNKNOWN;
+                MapWarning::GreyReadAsUnknown { free_thresh, cells: count }
             });
         }
-        raster.for_each_upwards(|pixel| {
-            let unknown = !is_opaque(raster, pixel) || rescued && pixel.colour == unknown_level;
-            cells.push(if unknown {
-                Occupancy::UNKNOWN
-            } else {
-                self.class(pixel.colour, raster.white())
-            });
-        });
+        cells
+    }
+
+    /// The level of grey 205, and how many pixels have it, where it was probably saved as unknown
+    /// and the thresholds make it free: whoever means free by shades of grey has more than this one.
+    /// Pixels that were painted afterwards, white, black or in a few greys, change nothing.
+    fn saved_as_unknown(&self, counts: &[usize], cells: &[Occupancy]) -> Option<(usize, usize)> {
+        let white = counts.len() - 1;
+        if self.negate || !white.is_multiple_of(255) {
+            return None;
+        }
+        let [level, saved_as_free] =
+            [UNKNOWN_GREY, FREE_GREY].map(|grey| white / 255 * usize::from(grey));
+        let count = counts[level];
+        if count == 0 || cells[level] != Occupancy::FREE {
+            return None;
+        }
+        let is_free_shade =
+            |&(at, cell): &(usize, &Occupancy)| at < saved_as_free && *cell == Occupancy::FREE;
+        let shades: usize =
+            cells.iter().enumerate().filter(is_free_shade).map(|(at, _)| counts[at]).sum();
+        (shades - count <= count / UNKNOWN_TO_SHADES).then_some((level, count))
     }
 
     fn class(&self, level: u32, white: u32) -> Occupancy {
@@ -117,11 +132,8 @@ impl MapHeader {
         }
     }
 
-    fn scale(&self, raster: &Raster, pixel: Pixel) -> Occupancy {
-        if !is_opaque(raster, pixel) {
-            return Occupancy::UNKNOWN;
-        }
-        let occupied = self.occupied_fraction(pixel.colour, raster.white());
+    fn scale(&self, level: u32, white: u32) -> Occupancy {
+        let occupied = self.occupied_fraction(level, white);
         let span = self.occupied_thresh - self.free_thresh;
         Occupancy::from_probability((occupied - self.free_thresh) / span)
     }
@@ -133,46 +145,16 @@ impl MapHeader {
     }
 }
 
-fn raw(raster: &Raster, pixel: Pixel) -> Occupancy {
-    let byte = (255.0 * f64::from(pixel.colour) / f64::from(raster.white())).round();
+fn raw(level: u32, white: u32) -> Occupancy {
+    let byte = (255.0 * f64::from(level) / f64::from(white)).round();
     if byte <= 100.0 { Occupancy::from_probability(byte / 100.0) } else { Occupancy::UNKNOWN }
 }
 
-fn is_opaque(raster: &Raster, pixel: Pixel) -> bool {
-    pixel.alpha.is_none_or(|alpha| alpha == u32::from(raster.max))
-}
-
-/// Which levels the opaque pixels of an image have.
-struct Survey {
-    levels: usize,
-    only_saver_levels: bool,
-    unknown_greys: usize,
-    translucent: usize,
-}
-
-impl Survey {
-    fn of(raster: &Raster) -> Self {
-        let mut counts = vec![0_usize; raster.white() as usize + 1];
-        let mut translucent = 0;
-        raster.for_each_upwards(|pixel| {
-            if !is_opaque(raster, pixel) {
-                translucent += 1;
-            } else if let Some(count) = counts.get_mut(pixel.colour as usize) {
-                *count += 1;
-            }
-        });
-        let levels = counts.iter().filter(|&&count| count > 0).count();
-        let of_grey = |grey: u8| {
-            let level = raster.channels.colours() as usize * usize::from(grey);
-            counts.get(level).copied().unwrap_or(0)
-        };
-        let greys = [OCCUPIED_GREY, UNKNOWN_GREY, FREE_GREY].map(of_grey);
-        let saver_levels = greys.iter().filter(|&&count| count > 0).count();
-        Self {
-            levels,
-            only_saver_levels: raster.max == 255 && levels == saver_levels,
-            unknown_greys: greys[1],
-            translucent,
-        }
-    }
+/// What `cell` makes of each level that occurs.
+fn of_levels(counts: &[usize], cell: impl Fn(u32, u32) -> Occupancy) -> Vec<Occupancy> {
+    let white = u32::try_from(counts.len() - 1).unwrap_or(u32::MAX);
+    (0..=white)
+        .zip(counts)
+        .map(|(level, &count)| if count > 0 { cell(level, white) } else { Occupancy::UNKNOWN })
+        .collect()
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use ogm_core::GridError;
+use ogm_core::{Cancelled, GridError};
 
 use crate::tag_columns::TAG_LOG_HEADER;
 
@@ -22,18 +22,19 @@ pub enum IoError {
         /// Why.
         cause: std::io::Error,
     },
-    /// A map YAML names an image that cannot be opened.
+    /// A map YAML names an image that cannot be opened, nor is there one of its name beside it.
     #[error(
-        "cannot read {}: {cause}; the key `image` in {} names it",
-        image.display(),
-        yaml.display()
+        "cannot read {}: {cause}; the key `image` in {} names it{}",
+        places[0].display(),
+        yaml.display(),
+        others(&places[1..])
     )]
     MissingImage {
         /// The map YAML.
         yaml: PathBuf,
-        /// The image, resolved against the folder of the YAML.
-        image: PathBuf,
-        /// Why.
+        /// Where it was looked for: first where the YAML says, never empty.
+        places: Vec<PathBuf>,
+        /// Why that failed.
         cause: std::io::Error,
     },
     /// The map YAML is malformed.
@@ -60,6 +61,9 @@ pub enum IoError {
         /// What is wrong with it.
         cause: TagLogError,
     },
+    /// Cancelled while writing; what was there is as it was.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
     /// The output exists and overwriting was not asked for.
     #[error("{} exists; name another output or ask to overwrite it", path.display())]
     Exists {
@@ -72,9 +76,17 @@ pub enum IoError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum YamlError {
-    /// Not UTF-8.
-    #[error("not a text file; name the map's .yaml, not its image")]
+    /// Bytes that are no text in UTF-8, UTF-16 or Latin-1.
+    #[error("not a text file; name the map's .yaml")]
     NotText,
+    /// An image in the place of the YAML.
+    #[error("this is an image; name the map's .yaml, which gives its resolution and origin")]
+    Image,
+    /// What Git LFS left in the place of a file that was not fetched.
+    #[error(
+        "this is a Git LFS pointer, not the YAML; fetch it with `git lfs pull` in its repository"
+    )]
+    LfsPointer,
     /// Not a YAML mapping, or a key of the wrong shape.
     #[error("not a map_server YAML: {message}")]
     Syntax {
@@ -125,9 +137,9 @@ pub enum YamlError {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MapImageError {
-    /// Neither a grey PNM nor a PNG.
+    /// None of the formats that are read.
     #[error(
-        "neither PGM (P2 or P5) nor PNG, it starts with \"{start}\"; convert it to one of them"
+        "none of PNM (P1 to P6), PNG, BMP, JPEG and TIFF, it starts with \"{start}\"; convert it to one of them"
     )]
     Format {
         /// The first bytes, escaped.
@@ -136,9 +148,20 @@ pub enum MapImageError {
     /// No area, or too many cells.
     #[error(transparent)]
     Size(#[from] GridError),
-    /// A field of a PGM header is not the number it should be.
-    #[error("{field} in the PGM header must be a whole number from 1 to {max}, found \"{found}\"")]
-    PgmHeader {
+    /// What Git LFS left in the place of an image that was not fetched.
+    #[error(
+        "this is a Git LFS pointer, not the image; fetch it with `git lfs pull` in its repository"
+    )]
+    LfsPointer,
+    /// There is no room for the pixels.
+    #[error("there is no memory for {bytes} bytes of it; crop it or free some memory")]
+    OutOfMemory {
+        /// Bytes that were asked for at once.
+        bytes: usize,
+    },
+    /// A field of a PNM header is not the number it should be.
+    #[error("{field} in the PNM header must be a whole number from 1 to {max}, found \"{found}\"")]
+    PnmHeader {
         /// Width, height or maximum.
         field: &'static str,
         /// Largest acceptable number.
@@ -170,9 +193,11 @@ pub enum MapImageError {
         /// The maximum of the header.
         max: u16,
     },
-    /// The PNG decoder or encoder gave up.
-    #[error("{message}")]
-    Png {
+    /// The decoder or encoder of a format gave up.
+    #[error("as {format}: {message}; if other programs open it, save it as PNG")]
+    Codec {
+        /// `PNG`, `BMP`, `JPEG` or `TIFF`.
+        format: &'static str,
         /// Its words.
         message: String,
     },
@@ -216,6 +241,14 @@ pub enum TagLogError {
         /// What would be accepted.
         expected: &'static str,
     },
+}
+
+fn others(places: &[PathBuf]) -> String {
+    let places: Vec<String> = places.iter().map(|place| place.display().to_string()).collect();
+    match &places[..] {
+        [] => String::new(),
+        places => format!(", and {} cannot be read either", places.join(" and ")),
+    }
 }
 
 /// The first bytes, escaped for an error message.

@@ -13,7 +13,8 @@
 //! let (header, warnings) = MapHeader::parse(yaml)?;
 //! assert!(warnings.is_empty());
 //!
-//! let (map, warnings) = header.read_image(b"P2 2 2 255  0 254  254 205", &ReadOptions::default())?;
+//! let (map, warnings) = header
+//!     .read_image(b"P2 2 2 255  0 254  254 205".to_vec(), &ReadOptions::default())?;
 //! assert_eq!(map.to_ascii(), "#.\n.?\n");
 //! // 205 is unknown to whoever saved this, but below a free_thresh of 0.25.
 //! assert!(matches!(warnings[..], [MapWarning::GreyReadAsUnknown { cells: 1, .. }]));
@@ -25,31 +26,45 @@
 
 #![expect(clippy::disallowed_methods, reason = "files are what this crate is for")]
 
+mod allocate;
+mod bounded;
 mod classify;
+mod codec;
 mod decode;
-mod disk;
+mod entries;
 mod error;
+mod file;
+mod format;
 mod header;
+mod hidden;
+mod lfs;
+mod lock;
 mod map;
-mod pgm;
 mod png;
+mod pnm;
 mod raster;
+mod size;
 mod tag_columns;
 mod tags;
+mod target;
+mod temporary;
+mod text;
 mod warning;
 mod write;
 
 pub use classify::ReadOptions;
-pub use disk::write_file;
 pub use error::{IoError, MapImageError, TagLogError, YamlError};
+pub use file::write_file;
 pub use header::{MapHeader, MapMode};
-pub use map::{LoadedMap, read_map, read_map_with};
+pub use map::{LoadedMap, MapFiles, read_map, read_map_with};
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
+pub use size::MapSize;
 pub use tag_columns::TAG_LOG_HEADER;
 pub use tags::{parse_tags, read_tags, write_tags};
+pub use text::TextEncoding;
 pub use warning::MapWarning;
-pub use write::{CellEncoding, WriteOptions, write_map};
+pub use write::{CellEncoding, StagedMap, WriteOptions, recover_map, write_map};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

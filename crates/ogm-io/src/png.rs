@@ -1,64 +1,34 @@
-//! PNG through the `image` crate, with the size checked before anything is decoded.
+//! PNG: what the decoder lets pass, and the writing of grey with alpha.
 
 use std::io::Cursor;
 
 use image::codecs::png::{PngDecoder, PngEncoder};
-use image::{ColorType, ExtendedColorType, ImageDecoder, ImageEncoder, ImageError, Limits};
+use image::{ExtendedColorType, ImageEncoder, Limits};
 use ogm_core::cell_count;
 
 use crate::MapImageError;
-use crate::raster::{Channels, Raster, Samples};
+use crate::codec::{failed, pixels, refusal};
+use crate::raster::Raster;
 
-/// For metadata and one row; the pixels are bounded by [`cell_count`] and by [`plausible`].
+/// For metadata and one row; the pixels are bounded by their number.
 const SCRATCH_BYTES: u64 = 64 << 20;
 
-/// Deflate expands at most this many fold.
-const DEFLATE_RATIO: usize = 1032;
-
-/// Decodes a PNG of any colour type, palettes resolved.
+/// Decodes a PNG of any colour type.
 pub(crate) fn decode(bytes: &[u8]) -> Result<Raster, MapImageError> {
-    let [width, height] = stated_size(bytes).ok_or_else(|| refusal("the PNG has no header"))?;
-    let cells = cell_count(width, height)?;
-    let found = plausible(bytes);
-    if cells > found {
-        return Err(MapImageError::WrongLength { width, height, need: cells, found });
-    }
+    let [width, height] =
+        stated_size(bytes).ok_or_else(|| refusal("PNG", "the PNG has no header"))?;
+    cell_count(width, height)?;
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(SCRATCH_BYTES);
-    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(png_error)?;
-    if decoder.is_apng().map_err(png_error)? {
-        return Err(refusal("an animated PNG is not a map; save a single frame"));
+    let failed = |error| failed("PNG", &error);
+    let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits).map_err(failed)?;
+    if decoder.is_apng().map_err(failed)? {
+        return Err(refusal("PNG", "an animated PNG is not a map; save a single frame"));
     }
     if !ends_properly(bytes) {
-        return Err(refusal("the PNG has no end mark; the file is cut short"));
+        return Err(refusal("PNG", "the PNG has no end mark; the file is cut short"));
     }
-    let (channels, wide) = match decoder.color_type() {
-        ColorType::L8 => (Channels::Grey, false),
-        ColorType::La8 => (Channels::GreyAlpha, false),
-        ColorType::Rgb8 => (Channels::Rgb, false),
-        ColorType::Rgba8 => (Channels::RgbAlpha, false),
-        ColorType::L16 => (Channels::Grey, true),
-        ColorType::La16 => (Channels::GreyAlpha, true),
-        ColorType::Rgb16 => (Channels::Rgb, true),
-        ColorType::Rgba16 => (Channels::RgbAlpha, true),
-        _ => return Err(refusal("its colour type is not one that PNG defines")),
-    };
-    let bits = usize::from(decoder.original_color_type().bits_per_pixel());
-    let need = (cells * bits).div_ceil(8);
-    let found = bytes.len().saturating_mul(DEFLATE_RATIO);
-    if need > found {
-        return Err(MapImageError::WrongLength { width, height, need, found });
-    }
-    let mut data = vec![0; cells * channels.count() * if wide { 2 } else { 1 }];
-    decoder.read_image(&mut data).map_err(png_error)?;
-    let (max, samples) = if wide {
-        let pairs = data.as_chunks::<2>().0;
-        let samples = pairs.iter().map(|&pair| u16::from_ne_bytes(pair)).collect();
-        (u16::MAX, Samples::Wide(samples))
-    } else {
-        (255, Samples::Narrow(data))
-    };
-    Ok(Raster { width, height, max, channels, samples })
+    pixels(decoder, "PNG", bytes.len())
 }
 
 /// A PNG of (grey, alpha) pairs, top row first.
@@ -67,13 +37,13 @@ pub(crate) fn encode_grey_alpha(
     height: usize,
     pairs: &[u8],
 ) -> Result<Vec<u8>, MapImageError> {
-    let too_wide = |_| refusal("too wide or too high for a PNG");
+    let too_wide = |_| refusal("PNG", "too wide or too high for a PNG");
     let width = u32::try_from(width).map_err(too_wide)?;
     let height = u32::try_from(height).map_err(too_wide)?;
     let mut file = Vec::new();
     PngEncoder::new(&mut file)
         .write_image(pairs, width, height, ExtendedColorType::La8)
-        .map_err(png_error)?;
+        .map_err(|error| failed("PNG", &error))?;
     Ok(file)
 }
 
@@ -86,12 +56,6 @@ fn stated_size(bytes: &[u8]) -> Option<[usize; 2]> {
         ),
         _ => None,
     }
-}
-
-/// The most pixels that a PNG of this length can hold: deflate expands at most 1032-fold, and a
-/// byte holds at most eight pixels.
-fn plausible(bytes: &[u8]) -> usize {
-    bytes.len().saturating_mul(8 * DEFLATE_RATIO)
 }
 
 /// Whether the chain of chunks reaches a complete `IEND`.
@@ -110,12 +74,4 @@ fn ends_properly(bytes: &[u8]) -> bool {
         rest = next;
     }
     false
-}
-
-fn png_error(error: ImageError) -> MapImageError {
-    MapImageError::Png { message: error.to_string() }
-}
-
-fn refusal(message: &str) -> MapImageError {
-    MapImageError::Png { message: message.to_owned() }
 }

@@ -6,8 +6,8 @@ use std::path::Path;
 use nalgebra::Point2;
 use ogm_core::TagReading;
 
-use crate::disk::{Temporary, read_at_most};
-use crate::{IoError, TAG_LOG_HEADER, TagLogError};
+use crate::bounded::read_at_most;
+use crate::{IoError, TAG_LOG_HEADER, TagLogError, write_file};
 
 /// Some five million readings.
 const MAX_BYTES: u64 = 256 << 20;
@@ -33,9 +33,7 @@ pub fn read_tags(path: &Path) -> Result<Vec<TagReading>, IoError> {
 pub fn write_tags(path: &Path, readings: &[TagReading]) -> Result<(), IoError> {
     let text =
         format_tags(readings).map_err(|cause| IoError::Tags { path: path.to_owned(), cause })?;
-    Temporary::write(path, text.as_bytes())
-        .and_then(|file| file.put_in_place())
-        .map_err(|cause| IoError::Access { path: path.to_owned(), action: "write", cause })
+    write_file(path, text.as_bytes(), true)
 }
 
 /// The readings in the bytes of a tag log. Blank lines and spaces around values are ignored.

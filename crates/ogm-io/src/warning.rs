@@ -1,13 +1,16 @@
 //! What is suspicious in a map file and still has a meaning.
 
 use std::fmt;
+use std::path::{Path, PathBuf};
+
+use crate::TextEncoding;
 
 /// Something in a map file that its author may not have meant, and what was made of it.
 #[derive(Debug, Clone, PartialEq)]
 #[non_exhaustive]
 pub enum MapWarning {
     /// Grey 205, by which `map_saver` means unknown, lies below `free_thresh` in a file that holds
-    /// nothing but 0, 205 and 254; it was read as unknown.
+    /// next to no other shade between unknown and free; it was read as unknown.
     GreyReadAsUnknown {
         /// The file's threshold.
         free_thresh: f64,
@@ -48,6 +51,41 @@ pub enum MapWarning {
     },
     /// `negate` has no effect in mode `raw`.
     NegateIgnored,
+    /// A key stands twice in the YAML; the last value was read.
+    DuplicateKey {
+        /// The key.
+        key: &'static str,
+        /// The value that was not read.
+        first: String,
+        /// The value that was read, unless the key stands there a third time.
+        last: String,
+    },
+    /// The key `mode` is no scalar; it was read as trinary, as ROS 1 does.
+    ModeNotAWord {
+        /// Its value.
+        value: String,
+    },
+    /// The YAML is not plain UTF-8; it was read as what it is.
+    Encoding {
+        /// How it is encoded.
+        encoding: TextEncoding,
+    },
+    /// The image is not where the key `image` says; one of its name was read instead.
+    ImageElsewhere {
+        /// Where the YAML says that it is.
+        named: PathBuf,
+        /// The image that was read.
+        read: PathBuf,
+    },
+    /// The image is a JPEG, whose greys are not what was saved.
+    Lossy,
+    /// There is no YAML; the usual thresholds stand in for it.
+    NoYaml {
+        /// Occupied strictly above this.
+        occupied_thresh: f64,
+        /// Free strictly below this.
+        free_thresh: f64,
+    },
 }
 
 impl fmt::Display for MapWarning {
@@ -79,6 +117,32 @@ impl fmt::Display for MapWarning {
                 "{levels} grey levels in a trinary map; if they are probabilities, set mode: scale"
             ),
             Self::NegateIgnored => write!(f, "negate has no effect in mode raw"),
+            Self::DuplicateKey { key, first, last } => write!(
+                f,
+                "the key `{key}` stands twice, as {first} and as {last}; the last one counts here, other programs may take the first: remove one"
+            ),
+            Self::ModeNotAWord { value } => write!(
+                f,
+                "`mode: {value}` is none of trinary, scale and raw; read as trinary, as in ROS 1; write mode: trinary"
+            ),
+            Self::Encoding { encoding } => {
+                write!(f, "the YAML is encoded in {}; save it as plain UTF-8", encoding.name())
+            }
+            Self::ImageElsewhere { named, read } => write!(
+                f,
+                "`image: {}` is not there; read {} instead; write image: {}",
+                named.display(),
+                read.display(),
+                Path::new(read.file_name().unwrap_or_default()).display()
+            ),
+            Self::Lossy => write!(
+                f,
+                "the image is a JPEG, which changes greys: cells near walls may have changed their class; save maps as PNG or PGM"
+            ),
+            Self::NoYaml { occupied_thresh, free_thresh } => write!(
+                f,
+                "there is no YAML: read as mode trinary, negate 0, occupied_thresh {occupied_thresh}, free_thresh {free_thresh}"
+            ),
         }
     }
 }

@@ -42,6 +42,7 @@ mod evidence;
 #[cfg(feature = "serde")]
 mod json;
 mod known;
+mod memory;
 mod merge;
 mod method;
 mod pair;
@@ -68,6 +69,7 @@ pub use evidence::{TagEvidence, WallAgreement, WallDirection};
 pub use grid_match::{MatchParams, Prior};
 pub use grid_merge::{ConflictRegion, FusionParams, FusionRule, Merged, PlacedMap};
 pub use known::{KnownPair, KnownPoses, known_poses};
+pub use memory::{aligning_bytes, fusing_bytes};
 pub use merge::{Component, Member, fuse, placed};
 pub use method::{Method, TagMethod};
 pub use ogm_core;

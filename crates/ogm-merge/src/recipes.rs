@@ -118,7 +118,10 @@ fn three_tags(task: &Task<'_>, seen: &mut TagEvidence) -> Result<[TagPair; 3], S
 }
 
 /// The straight walls of a map and the direction of its building (section 4.1).
-fn wall_direction(map: &OccupancyGrid, params: &RfidParams) -> Result<WallDirection, Refusal> {
+pub(crate) fn wall_direction(
+    map: &OccupancyGrid,
+    params: &RfidParams,
+) -> Result<WallDirection, Refusal> {
     let lines = line_ransac::Params { classes: params.thresholds, ..params.lines.clone() };
     let extraction = line_ransac::extract_segments(map, &lines).into_result()?;
     let vector = ogm_vector::ogm_vector(&extraction.segments, &params.vector).into_result()?;

@@ -46,7 +46,7 @@ fn files_that_are_not_there_or_are_no_maps_are_named() {
     header(folder.path(), "huge", "resolution: 0.05\norigin: [0, 0, 0]\nfree_thresh: 0.196");
     for (map, complaint) in [
         ("none.yaml", "cannot read"),
-        ("a.pgm", "not a map_server YAML"),
+        ("a.pgm", "is an image"),
         ("short.yaml", "300 × 300, 90000 pixels, but the data are 3"),
         ("lost.yaml", "the key `image` in"),
         ("huge.yaml", "exceeds the limit"),
@@ -136,4 +136,68 @@ fn info_tells_the_known_defects_of_map_files() {
         let (_, complained) = ends_with(3, folder.path(), "align {T}/a.yaml {T}/a.yaml --quiet");
         assert!(complained.is_empty(), "{complained}");
     }
+}
+
+#[test]
+fn a_picture_without_a_yaml_is_a_map_by_its_resolution() {
+    let folder = tempdir().unwrap();
+    draw(folder.path(), "a", "####\n#..?");
+    fs::copy(folder.path().join("a.pgm"), folder.path().join("plan=b.png")).unwrap();
+    for command in [
+        "info {T}/plan=b.png --input {T}/plan=b.png=0.5,-1.5,2,90 --json",
+        "info --input {T}/plan=b.png=0.5,-1.5,2,90 --json",
+        "info --json --input={T}/plan=b.png=0.5,-1.5,2,90",
+    ] {
+        let info = json(0, folder.path(), command);
+        assert_eq!((&info["width"], &info["resolution_m"]), (&4.into(), &0.5.into()));
+        let place = ["x_m", "y_m", "theta_deg"].map(|key| info["origin"][key].as_f64().unwrap());
+        assert_eq!(place, [-1.5, 2.0, 90.0], "{command}");
+        assert_eq!(info["cells"]["unknown"], 1);
+        assert!(info["warnings"][0].as_str().unwrap().contains("no YAML"));
+    }
+    let pair = json(
+        0,
+        folder.path(),
+        "align --json {F}/target.yaml --input {F}/source.pgm=0.05 --quiet --accept 0.5",
+    );
+    assert!(pair["source"]["file"].as_str().unwrap().ends_with("source.pgm"));
+    for wrong in ["x.png", "x.png=", "x.png=0", "x.png=0.05,1", "x.png=0.05,1,2,3,4", "=0.05"] {
+        ends_with(2, folder.path(), &format!("info {{T}}/x.png --input {wrong}"));
+    }
+}
+
+#[test]
+fn an_image_in_the_place_of_its_yaml_is_told_what_to_write() {
+    let folder = tempdir().unwrap();
+    draw(folder.path(), "a", "##\n.?");
+    fs::copy(folder.path().join("a.pgm"), folder.path().join("b.pgm")).unwrap();
+    let (_, complained) = ends_with(1, folder.path(), "align {T}/a.pgm {T}/a.pgm");
+    assert!(complained.contains("a.yaml") && complained.contains("a.pgm=0.05"), "{complained}");
+    let (_, complained) = ends_with(1, folder.path(), "info {T}/b.pgm");
+    assert!(!complained.contains("b.yaml") && complained.contains("--input "), "{complained}");
+}
+
+/// What `field/cases` of the kind showed, on files of our own.
+#[test]
+fn maps_that_were_moved_edited_or_saved_by_others_are_read_with_a_warning() {
+    let folder = tempdir().unwrap();
+    draw(folder.path(), "a", "###\n#.?");
+    let rest = "resolution: 0.05\norigin: [0, 0, 0]\nfree_thresh: 0.196\n";
+    let keys = format!("negate: 0\noccupied_thresh: 0.65\n{rest}");
+    for (yaml, part) in [
+        (format!("image: /opt/robot/a.pgm\n{keys}"), "write image: a.pgm"),
+        (format!("image: a.pgm\n{keys}resolution: 0.05\n"), "`resolution` stands twice"),
+        (format!("image: a.pgm\nmode: [0,0,10]\n{keys}"), "write mode: trinary"),
+        (format!("\u{feff}image: a.pgm\n{keys}"), "byte order mark"),
+    ] {
+        fs::write(folder.path().join("m.yaml"), yaml).unwrap();
+        let info = json(0, folder.path(), "info {T}/m.yaml --json");
+        assert_eq!(info["cells"]["occupied"], 4);
+        let warnings = info["warnings"].as_array().unwrap();
+        assert_eq!(warnings.len(), 1, "{warnings:?}");
+        assert!(warnings[0].as_str().unwrap().contains(part), "{warnings:?}");
+    }
+    fs::write(folder.path().join("a.pgm"), "version https://git-lfs.github.com/spec/v1\n").unwrap();
+    let (_, complained) = ends_with(1, folder.path(), "info {T}/m.yaml");
+    assert!(complained.contains("a.pgm") && complained.contains("git lfs pull"), "{complained}");
 }

@@ -8,9 +8,13 @@ mod files;
 #[cfg(unix)]
 mod interrupt;
 mod known;
+mod memory;
 mod merge;
+mod mutants;
+mod outputs;
 mod pictures;
 mod untagged;
+mod writers;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

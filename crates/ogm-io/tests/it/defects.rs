@@ -15,7 +15,7 @@ fn grey_205_is_unknown_below_an_old_free_threshold() {
     assert_eq!(warnings, [expected]);
 
     let literal = ReadOptions { literal_205: true, ..ReadOptions::default() };
-    let (map, warnings) = header_with(&keys).0.read_image(SAVED, &literal).unwrap();
+    let (map, warnings) = header_with(&keys).0.read_image(SAVED.to_vec(), &literal).unwrap();
     assert_eq!(map.to_ascii(), "#...\n");
     let expected = MapWarning::GreyReadAsFree { free_thresh: 0.25, cells: 2 };
     assert_eq!(warnings, [expected]);

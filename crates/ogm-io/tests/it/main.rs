@@ -5,11 +5,15 @@
 
 mod atomic;
 mod defects;
+mod elsewhere;
+mod formats;
 mod images;
 mod malformed;
 mod modes;
+mod mutants;
 mod round_trip;
 mod tags;
+mod writers;
 
 use ogm_core::{GridFrame, OccupancyGrid, Se2};
 use ogm_io::{MapHeader, MapImageError, MapWarning, ReadOptions};
@@ -43,7 +47,7 @@ fn header_with(changes: &[(&str, &str)]) -> (MapHeader, Vec<MapWarning>) {
 type ReadImage = Result<(OccupancyGrid, Vec<MapWarning>), MapImageError>;
 
 fn read(changes: &[(&str, &str)], image: &[u8]) -> ReadImage {
-    header_with(changes).0.read_image(image, &ReadOptions::default())
+    header_with(changes).0.read_image(image.to_vec(), &ReadOptions::default())
 }
 
 /// The picture of an image that must be readable.

@@ -18,7 +18,7 @@ use crate::progress::Bar;
 use crate::search::check;
 use crate::tags::logs_of;
 use crate::usage::UsageError;
-use crate::{drawn, output, terminal, text};
+use crate::{drawn, html, output, terminal, text};
 
 pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let names: Vec<&Path> = args.maps.iter().map(AsRef::as_ref).collect();
@@ -75,6 +75,10 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     if let Some(path) = &args.report {
         write_file(path, json.as_bytes(), args.force)?;
     }
+    if let Some(path) = &args.html {
+        let page = page(path, &inputs, &answer, made.as_ref())?;
+        write_file(path, page.as_bytes(), args.force)?;
+    }
     let said = || text::merge(&answer, made.as_ref().map(|made| &made.merged), args);
     terminal::result(&if args.search.json { json } else { said() })?;
     Ok(ending)
@@ -95,6 +99,23 @@ struct Picture<'a> {
     remark: Option<&'static str>,
 }
 
+fn page(
+    path: &Path,
+    inputs: &[Input],
+    answer: &MergeAnswer,
+    made: Option<&Made<'_>>,
+) -> anyhow::Result<String> {
+    let overlay = match (made, answer.pairs.first(), inputs) {
+        (None, Some(pair), [target, source]) => {
+            drawn::overlay(path, [target, source], &pair.report)?
+        }
+        _ => None,
+    };
+    let made = made.map(|made| (made.component, &made.merged));
+    html::report(answer, inputs, &html::Shown { made, overlay })
+        .with_context(|| format!("cannot make {}", path.display()))
+}
+
 fn check_outputs<'a>(
     args: &'a MergeArgs,
     inputs: &'a [Input],
@@ -102,7 +123,7 @@ fn check_outputs<'a>(
 ) -> anyhow::Result<()> {
     let image = output::image_of(&args.output);
     let mut outputs = vec![args.output.as_path(), &image];
-    let others = [&args.report, &args.overlay, &args.conflicts, &args.provenance];
+    let others = [&args.report, &args.overlay, &args.conflicts, &args.provenance, &args.html];
     outputs.extend(others.into_iter().flatten().map(AsRef::<Path>::as_ref));
     let inputs: Vec<&Path> = inputs.iter().flat_map(Input::paths).chain(logs).collect();
     output::check(&outputs, &inputs, args.force)

@@ -9,6 +9,7 @@ mod files;
 mod interrupt;
 mod known;
 mod merge;
+mod page;
 mod pictures;
 mod untagged;
 

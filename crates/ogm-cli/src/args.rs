@@ -74,6 +74,10 @@ pub(crate) struct MergeArgs {
     /// Draws which map says what: walls in the colour of their map, black where several agree
     #[arg(long, value_name = "P.png")]
     pub(crate) provenance: Option<PathBuf>,
+    /// Writes a page on what was found and done that needs no other file: a slider between the maps,
+    /// conflicts, poses, verdicts
+    #[arg(long, value_name = "REPORT.html")]
+    pub(crate) html: Option<PathBuf>,
     /// A pose that is known, for every map but the first, repeatable: maps points of that map into
     /// the frame of the merged map, which is that of the first map unless that one is named too.
     /// Nothing is searched

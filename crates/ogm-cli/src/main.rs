@@ -8,6 +8,7 @@ mod apply;
 mod args;
 mod drawn;
 mod ending;
+mod html;
 mod info;
 mod input;
 mod interrupt;

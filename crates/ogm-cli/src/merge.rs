@@ -82,7 +82,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     }
     if let Some(path) = &args.html {
         let page = page(path, &inputs, &answer, made.as_ref())?;
-        write_file(path, page.as_bytes(), args.force)?;
+        output::write(path, page.as_bytes(), args.force)?;
     }
     let is_written = staged.map(Staged::put_in_place).transpose()?.is_some();
     let said = || text::merge(&answer, made.as_ref().map(|made| &made.merged), args);
@@ -106,7 +106,8 @@ fn pictures_asked(args: &MergeArgs) -> impl Iterator<Item = &Path> {
 
 /// The outputs beside the map.
 fn side_outputs(args: &MergeArgs) -> impl Iterator<Item = &Path> {
-    args.report.as_deref().into_iter().chain(pictures_asked(args))
+    let texts = [&args.report, &args.html].into_iter().flatten().map(AsRef::as_ref);
+    texts.chain(pictures_asked(args))
 }
 
 /// Makes sure that the outputs are named as what they are.
@@ -159,8 +160,7 @@ fn check_outputs<'a>(
 ) -> anyhow::Result<()> {
     let image = output::image_of(&args.output);
     let mut outputs = vec![args.output.as_path(), &image];
-    let others = [&args.report, &args.overlay, &args.conflicts, &args.provenance, &args.html];
-    outputs.extend(others.into_iter().flatten().map(AsRef::<Path>::as_ref));
+    outputs.extend(side_outputs(args));
     let inputs: Vec<&Path> = inputs.iter().flat_map(Input::paths).chain(logs).collect();
     output::check(&outputs, &inputs, args.force)
 }

@@ -35,7 +35,7 @@ pub(crate) struct MergedMap {
     compared_cells: usize,
     conflict_cells: usize,
     /// How many places they form.
-    conflict_places: usize,
+    pub(crate) conflict_places: usize,
     /// The largest of them.
     pub(crate) conflicts: Vec<Conflict>,
 }
@@ -54,6 +54,22 @@ pub(crate) struct Conflict {
 }
 
 impl MergedMap {
+    /// What it is, in a line.
+    pub(crate) fn summary(&self) -> String {
+        format!(
+            "{}: {} x {} cells of {} m, fused by {}; {} of {} cells that several maps know are in \
+             conflict, in {} places",
+            self.file,
+            self.width,
+            self.height,
+            self.resolution_m,
+            self.fusion,
+            self.conflict_cells,
+            self.compared_cells,
+            self.conflict_places,
+        )
+    }
+
     pub(crate) fn new(yaml: &Path, component: &Component, merged: &Merged, fusion: String) -> Self {
         let map = &merged.map;
         let members: Vec<usize> = component.members.iter().map(|member| member.map).collect();

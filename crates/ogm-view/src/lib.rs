@@ -29,7 +29,7 @@ pub use claims::{Claimed, marked, provenance};
 pub use error::ViewError;
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
-pub use overlay::overlay;
+pub use overlay::{overlay, seen_on};
 pub use palette::{BLANK, COMMON_WALL, CONFLICT, FREE, MAPS, SOURCE_WALL, TARGET_WALL, UNKNOWN};
 pub use raster::{crop_known, enlarge, occupancy, paint, png, reduce, side_by_side};
 pub use sheet::overlay_sheet;

@@ -1,6 +1,6 @@
 //! Two maps drawn on each other.
 
-use image::RgbImage;
+use image::{Rgb, RgbImage};
 use nalgebra::Point2;
 use ogm_core::{
     CellIndex, ClassThresholds, Grid, GridFrame, MAX_CELLS, Occupancy, OccupancyGrid, Se2,
@@ -88,22 +88,9 @@ pub(crate) fn placed_overlay(
     let (columns, rows) = (cells(columns), cells(rows));
     let factor = columns.max(rows).div_ceil(MAX_SIDE);
     let mut bits = Grid::filled(columns.div_ceil(factor), rows.div_ceil(factor), 0_u8)?;
-    let width = bits.width();
-    // A strip for each row of pixels, so that a large map is not held twice.
-    let first_rows = (0_i64..).step_by(factor);
-    for (pixels, first_row) in bits.cells_mut().chunks_exact_mut(width).zip(first_rows) {
-        let frame = lattice.shifted(low[0] - margin, low[1] - margin + first_row);
-        let size = (columns, factor.min(rows - cells(first_row)));
-        for (map, pose, wall) in
-            [(target, Se2::identity(), TARGET_BIT), (source, target_from_source, SOURCE_BIT)]
-        {
-            for row in seen_as(map, &frame, size, pose, wall)?.rows() {
-                for (pixel, block) in pixels.iter_mut().zip(row.chunks(factor)) {
-                    *pixel = block.iter().fold(*pixel, |seen, bits| seen | bits);
-                }
-            }
-        }
-    }
+    let corner = lattice.shifted(low[0] - margin, low[1] - margin);
+    let seen = [(target, Se2::identity(), TARGET_BIT), (source, target_from_source, SOURCE_BIT)];
+    add_seen(&mut bits, &corner, (columns, rows), factor, &seen)?;
     let walls = SOURCE_BIT | TARGET_BIT;
     let image = paint(&bits, |&bits| match bits & walls {
         0 if bits & FREE_BIT != 0 => FREE,
@@ -112,8 +99,57 @@ pub(crate) fn placed_overlay(
         TARGET_BIT => TARGET_WALL,
         _ => COMMON_WALL,
     });
-    let frame = lattice.shifted(low[0] - margin, low[1] - margin);
-    Ok(PlacedOverlay { image, frame, factor })
+    Ok(PlacedOverlay { image, frame: corner, factor })
+}
+
+/// One map as it lies on the cells of `onto`, a merged map, at most 1000 pixels a side: its walls in
+/// a colour, its free space pale, the rest white. Such pictures of several maps lie on each other.
+///
+/// # Errors
+/// A transform that is not finite.
+pub fn seen_on(
+    onto: &OccupancyGrid,
+    map: &OccupancyGrid,
+    reference_from_map: Se2,
+    wall: Rgb<u8>,
+) -> Result<RgbImage, ViewError> {
+    let (columns, rows) = (onto.width(), onto.height());
+    let factor = columns.max(rows).div_ceil(MAX_SIDE);
+    let mut bits = Grid::filled(columns.div_ceil(factor), rows.div_ceil(factor), 0_u8)?;
+    let seen = [(map, reference_from_map, TARGET_BIT)];
+    add_seen(&mut bits, onto.frame(), (columns, rows), factor, &seen)?;
+    Ok(paint(&bits, |&bits| match bits {
+        0 => BLANK,
+        FREE_BIT => FREE,
+        _ => wall,
+    }))
+}
+
+/// Adds to `bits`, which hold `factor` by `factor` cells each of a grid of `size` in `frame`, what
+/// maps in their poses show there. A strip for each row of pixels, so that a large map is not held
+/// twice.
+fn add_seen(
+    bits: &mut Grid<u8>,
+    frame: &GridFrame,
+    (columns, rows): (usize, usize),
+    factor: usize,
+    seen: &[(&OccupancyGrid, Se2, u8)],
+) -> Result<(), ViewError> {
+    let width = bits.width();
+    let strips = (0..rows).step_by(factor);
+    for (pixels, first_row) in bits.cells_mut().chunks_exact_mut(width).zip(strips) {
+        // A grid has fewer than 2³² rows.
+        let strip = frame.shifted(0, i64::try_from(first_row).unwrap_or(i64::MAX));
+        let size = (columns, factor.min(rows - first_row));
+        for &(map, pose, wall) in seen {
+            for row in seen_as(map, &strip, size, pose, wall)?.rows() {
+                for (pixel, block) in pixels.iter_mut().zip(row.chunks(factor)) {
+                    *pixel = block.iter().fold(*pixel, |seen, bits| seen | bits);
+                }
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The map resampled into `frame`: `wall` where it is occupied, [`FREE_BIT`] where it is free.

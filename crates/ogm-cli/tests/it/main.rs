@@ -12,6 +12,7 @@ mod memory;
 mod merge;
 mod mutants;
 mod outputs;
+mod page;
 mod pictures;
 mod untagged;
 mod writers;

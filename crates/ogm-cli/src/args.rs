@@ -56,8 +56,8 @@ pub(crate) struct AlignArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct MergeArgs {
-    /// The maps; the frame of the first is kept
-    #[arg(value_name = "MAP.yaml", required = true, num_args = 2..)]
+    /// The maps, or folders of maps; the frame of the first is kept
+    #[arg(value_name = "MAP.yaml", required = true, num_args = 1..)]
     pub(crate) maps: Vec<PathBuf>,
     /// The merged map; its image goes beside it
     #[arg(short, long, value_name = "OUT.yaml")]
@@ -65,7 +65,7 @@ pub(crate) struct MergeArgs {
     /// Writes what was found and done as JSON
     #[arg(long, value_name = "R.json")]
     pub(crate) report: Option<PathBuf>,
-    /// Draws the maps on each other: the first blue, the second orange, both black
+    /// Draws the maps on each other: the first blue, the second orange, common walls black
     #[arg(long, value_name = "O.png")]
     pub(crate) overlay: Option<PathBuf>,
     /// Draws the merged map with the places where maps contradict each other in red
@@ -85,6 +85,10 @@ pub(crate) struct MergeArgs {
     #[arg(conflicts_with_all = ["method", "tags", "prior", "accept", "repeats"])]
     pub(crate) transforms: Vec<String>,
     /// What a cell becomes that several maps know
+    /// Of more than two maps, that whose frame is kept [default: the first]
+    #[arg(long, value_name = "MAP.yaml")]
+    pub(crate) reference: Option<PathBuf>,
+    /// What a cell becomes that both maps know
     #[arg(long, value_name = "RULE", value_enum, default_value_t)]
     pub(crate) fusion: Fusion,
     /// Metres a cell of the merged map [default: that of the first map]

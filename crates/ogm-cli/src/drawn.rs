@@ -3,9 +3,9 @@
 use std::path::Path;
 
 use anyhow::Context;
-use ogm_core::OccupancyGrid;
+use ogm_core::{OccupancyGrid, Se2};
 use ogm_merge::{Component, FusionParams, Merged, PairReport, placed};
-use ogm_view::{Claimed, ViewError};
+use ogm_view::{Claimed, Named, ViewError};
 
 use crate::input::Input;
 
@@ -18,11 +18,35 @@ pub(crate) fn overlay(
     let Some(target_from_source) = pair.target_from_source else {
         return Ok(None);
     };
-    let names = [target, source].map(Input::name);
-    let names = names.each_ref().map(String::as_str);
-    let png = ogm_view::overlay_sheet(target.map(), source.map(), target_from_source, names)
-        .and_then(|picture| ogm_view::png(&picture));
-    Ok(Some(png.with_context(|| format!("cannot draw {}", path.display()))?))
+    sheet(path, &[(target, Se2::identity()), (source, target_from_source)]).map(Some)
+}
+
+/// All maps of a component on each other.
+pub(crate) fn team(
+    path: &Path,
+    inputs: &[Input],
+    component: &Component,
+) -> anyhow::Result<Vec<u8>> {
+    let reference = component.members.first().map(|first| first.reference_from_map);
+    let first_from_reference = reference.unwrap_or_else(Se2::identity).inverse();
+    let placed = component.members.iter();
+    let placed: Vec<_> = placed
+        .map(|member| (&inputs[member.map], first_from_reference * member.reference_from_map))
+        .collect();
+    sheet(path, &placed)
+}
+
+/// Maps in their poses in the frame of the first.
+pub(crate) fn sheet(path: &Path, placed: &[(&Input, Se2)]) -> anyhow::Result<Vec<u8>> {
+    let names: Vec<String> = placed.iter().map(|(input, _)| input.name()).collect();
+    let named: Vec<Named<'_>> = placed
+        .iter()
+        .zip(&names)
+        .map(|(&(input, first_from_map), name)| Named { map: input.map(), first_from_map, name })
+        .collect();
+    ogm_view::overlay_sheet(&named)
+        .and_then(|picture| ogm_view::png(&picture))
+        .with_context(|| format!("cannot draw {}", path.display()))
 }
 
 /// The merged map with its conflicts.

@@ -24,6 +24,7 @@ mod reading;
 mod search;
 mod straighten;
 mod tags;
+mod team;
 mod terminal;
 mod text;
 mod usage;

@@ -18,21 +18,20 @@ use crate::placing::Placing;
 use crate::progress::Bar;
 use crate::search::check;
 use crate::tags::logs_of;
+use crate::team::TeamAnswer;
 use crate::usage::UsageError;
-use crate::{drawn, html, output, terminal, text};
+use crate::{drawn, html, output, team, terminal, text};
 
 pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
-    let names: Vec<&Path> = args.maps.iter().map(AsRef::as_ref).collect();
+    let maps = team::maps_in(&args.maps, &args.output)?;
+    let names: Vec<&Path> = maps.iter().map(AsRef::as_ref).collect();
     let quiet = args.search.quiet;
     let known = transforms_of(&names, &args.transforms)?;
-    if known.is_none() && names.len() != 2 {
-        let message = format!(
-            "a search takes two maps, not {}; give the poses of more by --transform MAP.yaml=X,Y,DEG",
-            names.len()
-        );
-        return Err(UsageError(message).into());
-    }
+    let reference = team::reference(args, &maps)?;
     let logs = logs_of(&names, &args.search.tags)?;
+    if known.is_none() && maps.len() > 2 {
+        team::check(args)?;
+    }
     check(&args.search, &logs)?;
     let refined = args.reading.refinement(names[0], args.resolution);
     args.reading.check_memory(&names, Work::Merging { refined })?;
@@ -45,7 +44,10 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let part = Stage::new(&bar, 0.0, 0.8);
     let placing = match &known {
         Some(poses) => Placing::known(&inputs, poses, &args.search, &part)?,
-        None => Placing::searched([&inputs[0], &inputs[1]], &logs, &args.search, &part)?,
+        None => match &inputs[..] {
+            [target, source] => Placing::searched([target, source], &logs, &args.search, &part)?,
+            _ => Placing::team(&inputs, &logs, reference, &args.search, &part)?,
+        },
     };
     let made = made(&inputs, &placing.components, args, &Stage::new(&bar, 0.8, 1.0))?;
     let pictures = pictures(&inputs, &placing, made.as_ref(), args)?;
@@ -75,6 +77,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
         }),
         pairs: placing.pairs,
         components: placing.components.clone(),
+        team: placing.team.as_ref().map(TeamAnswer::from),
     };
     let json = serde_json::to_string_pretty(&answer)? + "\n";
     if let Some(path) = &args.report {
@@ -85,7 +88,11 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
         output::write(path, page.as_bytes(), args.force)?;
     }
     let is_written = staged.map(Staged::put_in_place).transpose()?.is_some();
-    let said = || text::merge(&answer, made.as_ref().map(|made| &made.merged), args);
+    let found = placing.team.as_ref().map_or_else(
+        || answer.pairs.iter().map(text::pair).collect(),
+        |report| team::said(&inputs, report, args.overlay.is_some()),
+    );
+    let said = || found + &text::merge(&answer, made.as_ref().map(|made| &made.merged), args);
     let text = if args.search.json { json } else { said() };
     if side_outputs(args).any(output::is_standard) {
         terminal::note(&text);
@@ -192,7 +199,11 @@ fn pictures<'a>(
 ) -> anyhow::Result<Vec<Picture<'a>>> {
     const UNMADE: Option<&str> = Some("is not drawn: no map was made");
     let mut pictures = Vec::new();
-    if let Some(path) = &args.overlay {
+    if let Some(path) = args.overlay.as_ref().filter(|_| placing.team.is_some()) {
+        let component = placing.components.first();
+        let png = component.map(|component| drawn::team(path, inputs, component)).transpose()?;
+        pictures.push(Picture { path, png, remark: None });
+    } else if let Some(path) = &args.overlay {
         let pair = placing.pairs.first().zip(placing.of_pairs.first());
         let drawn = pair.map(|(pair, &[target, source])| {
             let png = drawn::overlay(path, [&inputs[target], &inputs[source]], &pair.report)?;

@@ -7,6 +7,7 @@ use serde::Serialize;
 
 use crate::answer::PairAnswer;
 use crate::input::MapFile;
+use crate::team::TeamAnswer;
 
 /// The most places of conflict that a report lists; the largest.
 const LISTED: usize = 100;
@@ -19,6 +20,9 @@ pub(crate) struct MergeAnswer {
     pub(crate) pairs: Vec<PairAnswer>,
     pub(crate) components: Vec<Component>,
     pub(crate) output: Option<MergedMap>,
+    /// Where more than two maps were searched.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) team: Option<TeamAnswer>,
 }
 
 /// The map that was written.

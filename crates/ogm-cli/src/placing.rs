@@ -4,13 +4,15 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use ogm_core::{Progress, Se2};
-use ogm_merge::{AlignParams, Component, RobotMap, known_poses};
+use ogm_merge::{
+    AlignParams, Component, RobotMap, TeamParams, TeamReport, known_poses, merge_team,
+};
 
 use crate::answer::{PairAnswer, SCHEMA};
 use crate::args::SearchArgs;
 use crate::ending::Ending;
 use crate::input::Input;
-use crate::search::search;
+use crate::search::{params, search, tags};
 
 /// What was found about the maps.
 #[derive(Debug)]
@@ -19,6 +21,8 @@ pub(crate) struct Placing {
     /// Target and source of each pair, by their places.
     pub(crate) of_pairs: Vec<[usize; 2]>,
     pub(crate) components: Vec<Component>,
+    /// Where more than two maps were searched.
+    pub(crate) team: Option<TeamReport>,
 }
 
 impl Placing {
@@ -31,7 +35,7 @@ impl Placing {
     ) -> anyhow::Result<Self> {
         let pair = search(inputs, logs, args, progress)?;
         let components = pair.report.components();
-        Ok(Self { pairs: vec![pair], of_pairs: vec![[0, 1]], components })
+        Ok(Self { pairs: vec![pair], of_pairs: vec![[0, 1]], components, team: None })
     }
 
     /// In poses that are known.
@@ -54,11 +58,41 @@ impl Placing {
             report: pair.report,
             elapsed_ms,
         });
-        Ok(Self { pairs: answers.collect(), of_pairs, components: vec![known.component] })
+        let (pairs, components) = (answers.collect(), vec![known.component]);
+        Ok(Self { pairs, of_pairs, components, team: None })
     }
 
-    /// Refused if any pair is.
+    /// By a search among any number of maps, in the frame of the one at `reference`.
+    pub(crate) fn team(
+        inputs: &[Input],
+        logs: &[Option<PathBuf>],
+        reference: usize,
+        args: &SearchArgs,
+        progress: &dyn Progress,
+    ) -> anyhow::Result<Self> {
+        let start = Instant::now();
+        let tags = tags(logs, args)?;
+        let maps = inputs.iter().zip(&tags);
+        let maps: Vec<_> = maps.map(|(input, tags)| RobotMap { map: input.map(), tags }).collect();
+        let params = TeamParams { align: params(args), reference, ..TeamParams::default() };
+        let team = merge_team(&maps, &params, progress)?;
+        let elapsed_ms = u64::try_from(start.elapsed().as_millis()).unwrap_or(u64::MAX);
+        let found = team.pairs.iter().filter_map(|pair| Some((pair, pair.report.clone()?)));
+        let (of_pairs, pairs) = found
+            .map(|(pair, report)| {
+                let [target, source] = [pair.target, pair.source].map(|map| inputs[map].file());
+                let answer = PairAnswer { schema: SCHEMA, target, source, report, elapsed_ms };
+                ([pair.target, pair.source], answer)
+            })
+            .unzip();
+        Ok(Self { pairs, of_pairs, components: team.components.clone(), team: Some(team) })
+    }
+
+    /// Refused if any pair is; of a team, if not all of it hangs together.
     pub(crate) fn ending(&self) -> Ending {
+        if let Some(team) = &self.team {
+            return if team.is_whole() { Ending::Done } else { Ending::Refused };
+        }
         let refused = self.pairs.iter().any(|pair| pair.ending() == Ending::Refused);
         if refused { Ending::Refused } else { Ending::Done }
     }

@@ -35,13 +35,33 @@ pub(crate) fn search(
     progress: &dyn Progress,
 ) -> anyhow::Result<PairAnswer> {
     let start = Instant::now();
+    let tags = tags(logs, args)?;
+    let robot = |map: usize| RobotMap { map: inputs[map].map(), tags: &tags[map] };
+    let report = align_pair(args.method.into(), &robot(0), &robot(1), &params(args), progress)?;
+    Ok(PairAnswer {
+        schema: SCHEMA,
+        target: inputs[0].file(),
+        source: inputs[1].file(),
+        report,
+        elapsed_ms: u64::try_from(start.elapsed().as_millis()).unwrap_or(u64::MAX),
+    })
+}
+
+/// The tags of every map.
+pub(crate) fn tags(
+    logs: &[Option<PathBuf>],
+    args: &SearchArgs,
+) -> anyhow::Result<Vec<Vec<TagEstimate>>> {
     let reader = FilterParams::for_reader(args.tag_range, args.tag_sigma);
     let tags_of = |log: &Option<PathBuf>| {
         log.as_deref().map_or(Ok(Vec::new()), |log| localised(log, &reader))
     };
-    let tags: Vec<Vec<TagEstimate>> = logs.iter().map(tags_of).collect::<Result<_, _>>()?;
-    let robot = |map: usize| RobotMap { map: inputs[map].map(), tags: &tags[map] };
-    let params = AlignParams {
+    logs.iter().map(tags_of).collect()
+}
+
+/// What the command line says about how pairs are aligned.
+pub(crate) fn params(args: &SearchArgs) -> AlignParams {
+    AlignParams {
         seed: args.seed,
         prior: args.prior_target_from_source.zip(args.prior_sigma).map(
             |(target_from_source, sigma)| Prior {
@@ -57,13 +77,5 @@ pub(crate) fn search(
         },
         walk_objective: args.objective.into(),
         ..AlignParams::default()
-    };
-    let report = align_pair(args.method.into(), &robot(0), &robot(1), &params, progress)?;
-    Ok(PairAnswer {
-        schema: SCHEMA,
-        target: inputs[0].file(),
-        source: inputs[1].file(),
-        report,
-        elapsed_ms: u64::try_from(start.elapsed().as_millis()).unwrap_or(u64::MAX),
-    })
+    }
 }

@@ -5,6 +5,7 @@ use std::path::Path;
 
 use grid_merge::Merged;
 use ogm_core::{OccupancyGrid, Outcome, Refusal, Se2};
+use ogm_merge::TeamReport;
 
 use crate::answer::PairAnswer;
 use crate::args::MergeArgs;
@@ -79,6 +80,19 @@ fn identity(target_from_source: &Se2) -> &'static str {
     if is_identity { " (identity)" } else { "" }
 }
 
+/// How many maps hang together, of how many.
+pub(crate) fn team_verdict(report: &TeamReport, maps: usize) -> String {
+    let (together, apart) = (report.components[0].members.len(), report.components.len() - 1);
+    if apart == 0 {
+        format!("{}: all {maps} maps hang together\n", highlight("merged", GREEN))
+    } else {
+        let (verdict, colour) =
+            if together > 1 { ("partly merged", YELLOW) } else { ("no-match", RED) };
+        let verdict = highlight(verdict, colour);
+        format!("{verdict}: {together} of {maps} maps hang together with the reference\n")
+    }
+}
+
 /// That a map was written.
 pub(crate) fn written(yaml: &Path, map: &OccupancyGrid) -> String {
     let origin = map.frame().map_from_grid();
@@ -91,9 +105,9 @@ pub(crate) fn written(yaml: &Path, map: &OccupancyGrid) -> String {
     )
 }
 
-/// What was found and done by a merge.
+/// What was done by a merge.
 pub(crate) fn merge(answer: &MergeAnswer, merged: Option<&Merged>, args: &MergeArgs) -> String {
-    let mut said: String = answer.pairs.iter().map(pair).collect();
+    let mut said = String::new();
     let (Some(merged), Some(output)) = (merged, &answer.output) else {
         return said;
     };

@@ -3,14 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::Context;
-use ogm_view::{occupancy, overlay_sheet, png};
+use ogm_core::Se2;
+use ogm_view::{occupancy, png};
 
 use crate::args::ViewArgs;
 use crate::ending::Ending;
 use crate::input::Input;
 use crate::memory::Work;
-use crate::output;
 use crate::progress::Wheel;
+use crate::{drawn, output};
 
 pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
     let maps: Vec<&Path> = [Some(&args.target), args.source.as_ref()]
@@ -27,16 +28,14 @@ pub(crate) fn run(args: &ViewArgs) -> anyhow::Result<Ending> {
     output::check(&[&args.output], &paths, args.force)?;
     output::check_picture(&args.output)?;
     let _progress = Wheel::start("drawing", args.quiet);
-    let cannot_draw = || format!("cannot draw {}", args.output.display());
     let picture = match source.as_ref().zip(args.target_from_source) {
         Some((source, target_from_source)) => {
-            let names = [&target, source].map(Input::name);
-            let names = names.each_ref().map(String::as_str);
-            overlay_sheet(target.map(), source.map(), target_from_source, names)
-                .with_context(cannot_draw)?
+            let placed = [(&target, Se2::identity()), (source, target_from_source)];
+            drawn::sheet(&args.output, &placed)?
         }
-        None => occupancy(target.map()),
+        None => png(&occupancy(target.map()))
+            .with_context(|| format!("cannot draw {}", args.output.display()))?,
     };
-    output::write(&args.output, &png(&picture).with_context(cannot_draw)?, args.force)?;
+    output::write(&args.output, &picture, args.force)?;
     Ok(Ending::Done)
 }

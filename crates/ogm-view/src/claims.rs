@@ -3,7 +3,7 @@
 use image::{Rgb, RgbImage};
 use ogm_core::{CellIndex, Grid, GridError, OccupancyGrid};
 
-use crate::palette::{BLANK, COMMON_WALL, CONFLICT, FREE, MAPS, UNKNOWN};
+use crate::palette::{BLANK, COMMON_WALL, CONFLICT, FREE, UNKNOWN, wall_colour};
 use crate::raster::{paint, reduce};
 
 /// What is said of a cell, by the places of the maps that say so.
@@ -66,7 +66,7 @@ struct Shown {
 
 impl Shown {
     fn of(claim: &Claimed<'_>) -> Self {
-        let of_map = |map: usize| MAPS[map % MAPS.len()];
+        let of_map = wall_colour;
         let (rank, colour) = match (claim.occupied, claim.free) {
             ([], []) => (0, BLANK),
             ([], [one]) => (1, tint(of_map(*one))),
@@ -86,7 +86,7 @@ fn tint(Rgb(colour): Rgb<u8>) -> Rgb<u8> {
 #[cfg(test)]
 mod tests {
     use super::{Claimed, marked, provenance};
-    use crate::palette::{BLANK, COMMON_WALL, CONFLICT, FREE, MAPS, UNKNOWN};
+    use crate::palette::{BLANK, COMMON_WALL, CONFLICT, FREE, UNKNOWN, wall_colour};
     use ogm_core::{CellIndex, Grid, GridFrame, OccupancyGrid, Se2};
 
     #[test]
@@ -107,6 +107,6 @@ mod tests {
         let cells = Grid::new(5, 1, vec![0, 1, 2, 3, 7]).unwrap();
         let image = provenance(&cells, &claims);
         let row = [0, 1, 2, 3, 4].map(|x| *image.get_pixel(x, 0));
-        assert_eq!(row, [BLANK, MAPS[1], COMMON_WALL, CONFLICT, BLANK]);
+        assert_eq!(row, [BLANK, wall_colour(1), COMMON_WALL, CONFLICT, BLANK]);
     }
 }

@@ -1,8 +1,8 @@
 //! Occupancy grid maps as pictures.
 //!
-//! [`occupancy`] shows one map in greys, [`overlay`] two maps on each other,
-//! [`overlay_sheet`] these with legend, scale bar and frame axes, [`marked`] and [`provenance`] what
-//! became of several maps in one. Where a map has more
+//! [`occupancy`] shows one map in greys, [`overlay`] two maps on each other and [`overlay_all`] any
+//! number, [`overlay_sheet`] these with legend, scale bar and frame axes, [`marked`] and
+//! [`provenance`] what became of several maps in one. Where a map has more
 //! than 1000 cells a side a pixel shows several of them, and walls win, so that a thin wall
 //! of a large map stays visible. The highest row of a grid is at the top of its picture.
 //!
@@ -29,10 +29,13 @@ pub use claims::{Claimed, marked, provenance};
 pub use error::ViewError;
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
-pub use overlay::{overlay, seen_on};
-pub use palette::{BLANK, COMMON_WALL, CONFLICT, FREE, MAPS, SOURCE_WALL, TARGET_WALL, UNKNOWN};
+pub use overlay::{overlay, overlay_all, seen_on};
+pub use palette::{
+    BLANK, COMMON_WALL, CONFLICT, FREE, SOURCE_WALL, TARGET_WALL, UNKNOWN, wall_colour,
+    wall_colour_name,
+};
 pub use raster::{crop_known, enlarge, occupancy, paint, png, reduce, side_by_side};
-pub use sheet::overlay_sheet;
+pub use sheet::{Named, overlay_sheet};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -16,14 +16,27 @@ pub const COMMON_WALL: Rgb<u8> = Rgb([20, 20, 20]);
 pub const BLANK: Rgb<u8> = Rgb([255, 255, 255]);
 /// Maps contradict each other here.
 pub const CONFLICT: Rgb<u8> = Rgb([204, 0, 44]);
-/// Of the first map, the second and so on, from the start again after eight (Okabe and Ito).
-pub const MAPS: [Rgb<u8>; 8] = [
-    TARGET_WALL,
-    SOURCE_WALL,
-    Rgb([0, 158, 115]),
-    Rgb([204, 121, 167]),
-    Rgb([86, 180, 233]),
-    Rgb([230, 159, 0]),
-    Rgb([120, 94, 240]),
-    Rgb([150, 130, 20]),
+
+/// Walls of the maps of a team, with a name for each: the colours of Okabe and Ito.
+const WALLS: [(Rgb<u8>, &str); 8] = [
+    (TARGET_WALL, "blue"),
+    (SOURCE_WALL, "orange"),
+    (Rgb([0, 158, 115]), "green"),
+    (Rgb([204, 121, 167]), "pink"),
+    (Rgb([86, 180, 233]), "sky blue"),
+    (Rgb([230, 159, 0]), "amber"),
+    (Rgb([120, 94, 240]), "violet"),
+    (Rgb([150, 130, 20]), "olive"),
 ];
+
+/// The colour of the walls of the map at `place`, from 0; after eight they come again.
+#[must_use]
+pub fn wall_colour(place: usize) -> Rgb<u8> {
+    WALLS[place % WALLS.len()].0
+}
+
+/// A word for [`wall_colour`].
+#[must_use]
+pub fn wall_colour_name(place: usize) -> &'static str {
+    WALLS[place % WALLS.len()].1
+}

@@ -7,7 +7,7 @@ use ogm_core::{OccupancyGrid, Se2};
 
 use crate::ViewError;
 use crate::overlay::placed_overlay;
-use crate::palette::{BLANK, COMMON_WALL, SOURCE_WALL, TARGET_WALL};
+use crate::palette::{BLANK, COMMON_WALL, wall_colour};
 use crate::raster::enlarge;
 
 /// Smaller overlays are enlarged to about this many pixels on their longer side.
@@ -23,30 +23,43 @@ const INK: Rgb<u8> = COMMON_WALL;
 const X_AXIS: Rgb<u8> = Rgb([204, 0, 44]);
 const Y_AXIS: Rgb<u8> = Rgb([0, 140, 60]);
 
-/// [`overlay`](crate::overlay()) with what a reader needs: whose wall is which, by `names` of target
-/// and source, a scale bar, and the axes of both map frames, A and B, where they lie inside.
+/// A map, where it lies, and what it is called.
+#[derive(Debug, Clone, Copy)]
+pub struct Named<'a> {
+    /// The map.
+    pub map: &'a OccupancyGrid,
+    /// Maps its points into the frame of the first map.
+    pub first_from_map: Se2,
+    /// For the legend.
+    pub name: &'a str,
+}
+
+/// A, B … Z, A again.
+fn letter(place: usize) -> String {
+    char::from(b'A' + u8::try_from(place % 26).unwrap_or(0)).to_string()
+}
+
+/// [`overlay_all`](crate::overlay_all()) with what a reader needs: whose wall is which, by name, a
+/// scale bar, and the axes of the map frames, A, B and so on, where they lie inside.
 ///
 /// Letters outside ASCII are left blank, and names are cut where the picture ends.
 ///
 /// # Errors
-/// Those of [`overlay`](crate::overlay()).
-pub fn overlay_sheet(
-    target: &OccupancyGrid,
-    source: &OccupancyGrid,
-    target_from_source: Se2,
-    names: [&str; 2],
-) -> Result<RgbImage, ViewError> {
-    let overlay = placed_overlay(target, source, target_from_source)?;
+/// Those of [`overlay_all`](crate::overlay_all()).
+pub fn overlay_sheet(maps: &[Named<'_>]) -> Result<RgbImage, ViewError> {
+    let placed: Vec<_> = maps.iter().map(|map| (map.map, map.first_from_map)).collect();
+    let overlay = placed_overlay(&placed)?;
     let longer = overlay.image.width().max(overlay.image.height());
     let enlarged = (SMALLEST / longer).max(1);
     let picture = enlarge(&overlay.image, enlarged);
     let width = picture.width().max(SMALLEST / 2);
-    let lines = 4;
+    let lines = u32::try_from(maps.len()).unwrap_or(u32::MAX - 2).saturating_add(2);
     let height = picture.height() + 2 * MARGIN + lines * LINE;
     let mut sheet = RgbImage::from_pixel(width, height, BLANK);
     image::imageops::replace(&mut sheet, &picture, 0, 0);
 
-    for (pose, name) in [(Se2::identity(), "A"), (target_from_source, "B")] {
+    for (place, map) in maps.iter().enumerate() {
+        let pose = map.first_from_map;
         let pixel = |point: Point2<f64>| overlay.pixel_of(point).map(|at| at * f64::from(enlarged));
         let length = AXIS * overlay.metres_a_pixel() / f64::from(enlarged);
         let at = pixel(pose * Point2::origin());
@@ -56,15 +69,15 @@ pub fn overlay_sheet(
         }
         line(&mut sheet, at, pixel(pose * Point2::new(length, 0.0)), X_AXIS);
         line(&mut sheet, at, pixel(pose * Point2::new(0.0, length)), Y_AXIS);
-        write(&mut sheet, [at[0] + 3.0, at[1] + 3.0].map(whole), name, INK);
+        write(&mut sheet, [at[0] + 3.0, at[1] + 3.0].map(whole), &letter(place), INK);
     }
 
     let top = picture.height() + MARGIN;
-    let legend = [
-        (TARGET_WALL, format!("A {}", names[0])),
-        (SOURCE_WALL, format!("B {}", names[1])),
-        (COMMON_WALL, "walls of both".to_owned()),
-    ];
+    let named = |(place, map): (usize, &Named<'_>)| {
+        (wall_colour(place), format!("{} {}", letter(place), map.name))
+    };
+    let mut legend: Vec<_> = maps.iter().enumerate().map(named).collect();
+    legend.push((COMMON_WALL, "walls of several".to_owned()));
     for (row, (colour, text)) in (0..).zip(legend) {
         let y = top + row * LINE;
         fill(&mut sheet, [MARGIN, y], [LETTER, LETTER], colour);
@@ -72,7 +85,7 @@ pub fn overlay_sheet(
     }
     let metres_a_pixel = overlay.metres_a_pixel() / f64::from(enlarged);
     let (metres, label) = scale(0.3 * f64::from(width) * metres_a_pixel);
-    let [bar, y] = [whole(metres / metres_a_pixel), top + 3 * LINE];
+    let [bar, y] = [whole(metres / metres_a_pixel), top + (lines - 1) * LINE];
     fill(&mut sheet, [MARGIN, y + 3], [bar, 2], INK);
     for end in [MARGIN, MARGIN + bar.saturating_sub(1)] {
         fill(&mut sheet, [end, y], [1, LETTER], INK);
@@ -132,7 +145,7 @@ fn write(image: &mut RgbImage, [left, top]: [u32; 2], text: &str, colour: Rgb<u8
 
 #[cfg(test)]
 mod tests {
-    use super::{X_AXIS, Y_AXIS, overlay_sheet, scale, whole};
+    use super::{Named, X_AXIS, Y_AXIS, overlay_sheet, scale, whole};
     use crate::overlay::overlay;
     use ogm_core::{GridFrame, OccupancyGrid, Se2};
 
@@ -143,7 +156,10 @@ mod tests {
         let map = OccupancyGrid::from_ascii(frame, &row.repeat(20)).unwrap();
         let target_from_source = Se2::new(4.0, 2.0, 0.0);
         let bare = overlay(&map, &map, target_from_source).unwrap();
-        let sheet = overlay_sheet(&map, &map, target_from_source, ["a.yaml", "b.yaml"]).unwrap();
+        let named = |first_from_map, name| Named { map: &map, first_from_map, name };
+        let sheet =
+            overlay_sheet(&[named(Se2::identity(), "a.yaml"), named(target_from_source, "b.yaml")])
+                .unwrap();
         let enlarged = 480 / bare.width();
         assert_eq!(sheet.width(), enlarged * bare.width());
         assert!(sheet.height() > enlarged * bare.height());

@@ -6,7 +6,7 @@ use anyhow::Context;
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
 use ogm_merge::{Component, Merged};
-use ogm_view::{MAPS, ViewError};
+use ogm_view::{ViewError, wall_colour};
 
 use crate::input::Input;
 use crate::merged::MergeAnswer;
@@ -31,7 +31,7 @@ pub(crate) fn report(
     };
     if let Some((component, merged)) = shown.made {
         let drawn = component.members.iter().map(|member| {
-            let colour = MAPS[member.map % MAPS.len()];
+            let colour = wall_colour(member.map);
             let map = inputs[member.map].map();
             ogm_view::seen_on(&merged.map, map, member.reference_from_map, colour)
                 .and_then(|picture| ogm_view::png(&picture))

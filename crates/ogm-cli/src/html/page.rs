@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use ogm_merge::{PoseDegrees, Verdict};
-use ogm_view::MAPS;
+use ogm_view::wall_colour;
 
 use crate::answer::PairAnswer;
 use crate::merged::{Conflict, MergeAnswer};
@@ -24,7 +24,10 @@ pub(super) struct Pictures {
 }
 
 pub(super) fn page(answer: &MergeAnswer, pictures: &Pictures) -> String {
-    let merged = answer.pairs.iter().all(|pair| pair.report.verdict() == Verdict::Merged);
+    let merged = match &answer.team {
+        Some(_) => answer.components.len() == 1,
+        None => answer.pairs.iter().all(|pair| pair.report.verdict() == Verdict::Merged),
+    };
     let (class, title) = if merged { ("good", "Merged") } else { ("bad", "Not merged") };
     let files: Vec<String> = answer.maps.iter().map(|map| escaped(&map.file)).collect();
     let mut page = format!(
@@ -213,7 +216,7 @@ fn verdict(pair: &PairAnswer) -> String {
 }
 
 fn swatch(map: usize) -> String {
-    let [red, green, blue] = MAPS[map % MAPS.len()].0;
+    let [red, green, blue] = wall_colour(map).0;
     format!("<span class=\"swatch\" style=\"background:rgb({red},{green},{blue})\"></span>")
 }
 

@@ -1,19 +1,24 @@
 //! Reading a map: a YAML and the image that it names.
 
-use std::io::{self, ErrorKind};
+use std::fs::File;
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use ogm_core::{GridFrame, MAX_CELLS, OccupancyGrid};
 
 use crate::bounded::read_at_most;
+use crate::format::Format;
 use crate::lock::is_locked;
-use crate::{IoError, MapHeader, MapSize, MapWarning, ReadOptions};
+use crate::{IoError, MapHeader, MapSize, MapWarning, ReadOptions, YamlError};
 
 /// A map YAML has seven keys; 64 KiB of them are something else.
 const MAX_YAML_BYTES: u64 = 1 << 16;
 /// Four bytes a cell: the largest plain PGM of 8 bits.
 const MAX_IMAGE_BYTES: u64 = 4 * MAX_CELLS as u64;
+
+/// Enough to tell an image.
+const HEAD_BYTES: u64 = 16;
 
 /// How often, and how long apart, a map that is just being replaced is looked at again.
 const ATTEMPTS: usize = 400;
@@ -176,7 +181,18 @@ fn places(yaml: &Path, named: &Path) -> Vec<PathBuf> {
 }
 
 fn read_yaml(yaml: &Path) -> Result<Vec<u8>, IoError> {
-    read_at_most(yaml, MAX_YAML_BYTES).map_err(|cause| access(yaml, cause))
+    let too_large = match read_at_most(yaml, MAX_YAML_BYTES) {
+        Err(cause) if cause.kind() == ErrorKind::FileTooLarge => cause,
+        read => return read.map_err(|cause| access(yaml, cause)),
+    };
+    let mut head = Vec::new();
+    let file = File::open(yaml).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
+    match file {
+        Ok(_) if Format::of(&head).is_some() => {
+            Err(IoError::Yaml { path: yaml.to_owned(), cause: YamlError::Image })
+        }
+        _ => Err(access(yaml, too_large)),
+    }
 }
 
 fn access(path: &Path, cause: io::Error) -> IoError {

@@ -173,6 +173,9 @@ fn an_image_in_the_place_of_its_yaml_is_told_what_to_write() {
     fs::copy(folder.path().join("a.pgm"), folder.path().join("b.pgm")).unwrap();
     let (_, complained) = ends_with(1, folder.path(), "align {T}/a.pgm {T}/a.pgm");
     assert!(complained.contains("a.yaml") && complained.contains("a.pgm=0.05"), "{complained}");
+    // Larger than any YAML.
+    let (_, complained) = ends_with(1, folder.path(), "align {F}/target.pgm {F}/source.pgm");
+    assert!(complained.contains("target.yaml") && complained.contains("--input "), "{complained}");
     let (_, complained) = ends_with(1, folder.path(), "info {T}/b.pgm");
     assert!(!complained.contains("b.yaml") && complained.contains("--input "), "{complained}");
 }

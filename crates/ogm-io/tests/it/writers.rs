@@ -77,6 +77,41 @@ fn of_100_000_reads_none_sees_a_torn_pair() {
     read_while_writing(100_000);
 }
 
+/// A writer that replaces pairs far faster than the disk takes them, in the documented order.
+#[test]
+fn a_pair_that_is_replaced_between_its_two_files_is_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name);
+    let pairs = [0, 1].map(|number| {
+        let yaml = at(&format!("{number}.yaml"));
+        write_map(&yaml, &numbered(number), &OVERWRITE).unwrap();
+        let text = fs::read_to_string(&yaml).unwrap().replace(&format!("{number}.pgm"), "map.pgm");
+        (text, fs::read(yaml.with_extension("pgm")).unwrap())
+    });
+    let (image, yaml) = (at("map.pgm"), at("map.yaml"));
+    let ended = AtomicBool::new(false);
+    thread::scope(|scope| {
+        scope.spawn(|| {
+            for (text, pixels) in pairs.iter().cycle() {
+                if ended.load(Ordering::Relaxed) {
+                    break;
+                }
+                fs::write(at("new.pgm"), pixels).unwrap();
+                fs::write(at("new.yaml"), text).unwrap();
+                let _ = fs::remove_file(&yaml);
+                fs::rename(at("new.pgm"), &image).unwrap();
+                fs::rename(at("new.yaml"), &yaml).unwrap();
+            }
+        });
+        let _ending = Ending(&ended);
+        for _ in 0..40_000 {
+            if let Ok(loaded) = read_map(&yaml) {
+                assert_whole(&loaded.map);
+            }
+        }
+    });
+}
+
 #[test]
 fn of_two_writers_without_force_one_is_refused() {
     for _ in 0..20 {

@@ -102,16 +102,17 @@ fn run(
     target: &Index,
     source: &WallPoints,
     section: Section,
-    start: Se2,
+    start_target_from_source: Se2,
     params: &IcpParams,
 ) -> Result<Alignment, Refusal> {
     let spacing = target.cloud.spacing.max(source.spacing());
     let in_source = source.points().iter().copied();
-    let in_source = in_source.filter(|point| section.contains(start * point.position));
+    let in_source =
+        in_source.filter(|point| section.contains(start_target_from_source * point.position));
     let source = Cloud::new(in_source, source.spacing());
     let search = Search {
         section,
-        start_target_from_source: start,
+        start_target_from_source,
         shapes: &target.shapes,
         weighing: Weighing { kernel: params.kernel, spacing },
         spacing,

@@ -82,7 +82,7 @@ mod wall_points;
 mod weights;
 mod work;
 
-pub use composite::pose_probabilities;
+pub use composite::{pose_probabilities, refine_pose};
 pub use error::MatchError;
 pub use evidence::{Evidence, Relaxed};
 pub use matching::{match_maps, match_prepared, score_pose};

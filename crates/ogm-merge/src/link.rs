@@ -1,8 +1,8 @@
 //! How two groups of maps may lie on each other, by what all of their walls say together.
 
-use grid_match::{Evidence, PreparedMap, pose_probabilities, score_pose};
+use grid_match::{Evidence, PreparedMap, pose_probabilities, refine_pose, score_pose};
 use nalgebra::Point2;
-use ogm_core::{Se2, wrap_angle};
+use ogm_core::{RelativePose, Se2, log_odds, probability_from_log_odds, wrap_angle};
 
 use crate::MergeError;
 use crate::part::Part;
@@ -15,10 +15,20 @@ const APART: (f64, f64) = (0.75, 0.1);
 const MOST_POSES: usize = 8;
 /// A pair's hypothesis with a lower score says nothing.
 const LEAST_SCORE: f64 = -8.0;
-/// Wall in free space that contradicts a pose, metres, and as a share of the wall compared: one
-/// pair of a group may veto what all others want.
-const VETO_M: f64 = 2.0;
-const VETO_SHARE: f64 = 0.35;
+/// By how much all walls together must prefer a pose to every other, in log-odds, before it counts
+/// how many pairs propose it: where a building repeats, they all propose the same alias, and the
+/// right pose is not far behind.
+const LEAST_LEAD: f64 = 3.0;
+/// Probability that the best pose of two maps of different places is given.
+const OF_STRANGERS: f64 = 0.1;
+/// Share of what another pair says that the surest does not say already.
+const SHARED: f64 = 0.5;
+/// No number of pairs makes a pose surer than this: of joins that many pairs ask for, so many are
+/// right on simulated floors.
+const MOST_BY_PAIRS: f64 = 0.995;
+/// Wall in free space that contradicts a pose, metres, beside as much as fits: one pair of a group
+/// may veto what all others want. Bent maps and moved furniture reach half of it.
+const VETO_M: f64 = 5.0;
 
 /// The best way to join two groups.
 #[derive(Debug, Clone, Copy)]
@@ -38,7 +48,7 @@ pub(crate) struct Evidences<'a> {
 impl Evidences<'_> {
     /// The best link of two groups; `None` where no pair proposes one.
     pub(crate) fn link(&self, first: &Part, second: &Part) -> Result<Option<Link>, MergeError> {
-        let mut poses = self.poses(first, second);
+        let poses = self.poses(first, second);
         if first.is_alone() && second.is_alone() {
             return Ok(poses.first().map(|&(score, first_from_second, probability)| Link {
                 first_from_second,
@@ -47,18 +57,61 @@ impl Evidences<'_> {
             }));
         }
         let [whole, other] = [first, second].map(|part| part.whole(self.prepared));
-        for (score, first_from_second, _) in &mut poses {
-            *score = score_pose(whole, other, first_from_second)?.score();
+        let centre = other.centre();
+        let mut refined: Vec<(f64, Se2, f64)> = Vec::with_capacity(poses.len());
+        for &(_, proposed_first_from_second, probability) in &poses {
+            // What one pair of maps proposes is not yet where all of their walls fit best.
+            let start = &proposed_first_from_second;
+            let mut first_from_second = refine_pose(whole, other, start)?;
+            if is_apart(&first_from_second, start, centre) {
+                first_from_second = *start;
+            }
+            let score = score_pose(whole, other, &first_from_second)?.score();
+            refined.push((score, first_from_second, probability));
         }
-        poses.sort_by(|a, b| b.0.total_cmp(&a.0));
+        refined.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let poses = distinct(refined, centre);
         let scores: Vec<f64> = poses.iter().map(|(score, _, _)| *score).collect();
         let probabilities = pose_probabilities(&scores, self.repeats);
-        let best = poses.first().zip(probabilities.first());
-        Ok(best.map(|(&(score, first_from_second, _), &probability)| Link {
-            first_from_second,
-            probability,
-            score,
-        }))
+        let Some((&(score, first_from_second, _), &by_walls)) =
+            poses.first().zip(probabilities.first())
+        else {
+            return Ok(None);
+        };
+        let lead = score - scores.get(1).copied().unwrap_or(f64::NEG_INFINITY);
+        let by_pairs = if lead >= LEAST_LEAD && !self.repeats {
+            self.agreement(first, second, &first_from_second)
+        } else {
+            0.0
+        };
+        Ok(Some(Link { first_from_second, probability: by_walls.max(by_pairs), score }))
+    }
+
+    /// Probability of a pose by how many pairs across the groups take it for their best.
+    ///
+    /// The surest of them counts in full and the others in part: they see the same walls. What
+    /// two maps of different places say at best is taken off each.
+    fn agreement(&self, first: &Part, second: &Part, first_from_second: &Se2) -> f64 {
+        let centre = second.centre(self.prepared);
+        let mut odds = Vec::new();
+        for pair in self.pairs {
+            let best = pair.proposals.first();
+            let Some(best) = best else { continue };
+            let Some(proposed) = first_from_second_by(first, second, pair, &best.pose) else {
+                continue;
+            };
+            let said = log_odds(best.pose.probability);
+            let more = (said - log_odds(OF_STRANGERS)).max(0.0);
+            odds.push(if is_apart(&proposed, first_from_second, centre) {
+                (f64::NEG_INFINITY, -more)
+            } else {
+                (said, more)
+            });
+        }
+        let Some(surest) = odds.iter().map(|(said, _)| *said).reduce(f64::max) else { return 0.0 };
+        let surest_more = (surest - log_odds(OF_STRANGERS)).max(0.0);
+        let others = odds.iter().map(|(_, more)| more).sum::<f64>() - surest_more;
+        probability_from_log_odds(surest + SHARED * others).min(MOST_BY_PAIRS)
     }
 
     /// Whether some pair of maps across the groups contradicts their link.
@@ -85,34 +138,53 @@ impl Evidences<'_> {
     fn poses(&self, first: &Part, second: &Part) -> Vec<(f64, Se2, f64)> {
         let mut proposed = Vec::new();
         for pair in self.pairs {
-            let forth = first.pose(pair.target).zip(second.pose(pair.source));
-            let back = first.pose(pair.source).zip(second.pose(pair.target));
             for proposal in pair.proposals.iter().filter(|found| found.score > LEAST_SCORE) {
-                let pose = proposal.pose.target_from_source;
-                let first_from_second = match (forth, back) {
-                    (Some((first_from_a, second_from_b)), _) => {
-                        first_from_a * pose * second_from_b.inverse()
-                    }
-                    (_, Some((first_from_b, second_from_a))) => {
-                        first_from_b * pose.inverse() * second_from_a.inverse()
-                    }
-                    _ => continue,
+                let Some(first_from_second) =
+                    first_from_second_by(first, second, pair, &proposal.pose)
+                else {
+                    break;
                 };
                 proposed.push((proposal.score, first_from_second, proposal.pose.probability));
             }
         }
         proposed.sort_by(|a, b| b.0.total_cmp(&a.0));
         let centre = second.centre(self.prepared);
-        let mut distinct: Vec<(f64, Se2, f64)> = Vec::new();
-        for found in proposed {
-            if distinct.len() < MOST_POSES
-                && distinct.iter().all(|other| is_apart(&found.1, &other.1, centre))
-            {
-                distinct.push(found);
-            }
-        }
+        let mut distinct = distinct(proposed, centre);
+        distinct.truncate(MOST_POSES);
         distinct
     }
+}
+
+/// The pose of the groups that a pose of a pair across them says; `None` of any other pair.
+fn first_from_second_by(
+    first: &Part,
+    second: &Part,
+    pair: &Matched,
+    pose: &RelativePose,
+) -> Option<Se2> {
+    let target_from_source = pose.target_from_source;
+    let forth = first.pose(pair.target).zip(second.pose(pair.source));
+    let back = first.pose(pair.source).zip(second.pose(pair.target));
+    match (forth, back) {
+        (Some((first_from_target, second_from_source)), _) => {
+            Some(first_from_target * target_from_source * second_from_source.inverse())
+        }
+        (_, Some((first_from_source, second_from_target))) => {
+            Some(first_from_source * target_from_source.inverse() * second_from_target.inverse())
+        }
+        _ => None,
+    }
+}
+
+/// The first of every answer among poses.
+fn distinct(poses: Vec<(f64, Se2, f64)>, centre: Point2<f64>) -> Vec<(f64, Se2, f64)> {
+    let mut distinct: Vec<(f64, Se2, f64)> = Vec::new();
+    for found in poses {
+        if distinct.iter().all(|other| is_apart(&found.1, &other.1, centre)) {
+            distinct.push(found);
+        }
+    }
+    distinct
 }
 
 /// Whether two poses are two answers.
@@ -123,6 +195,5 @@ fn is_apart(a: &Se2, b: &Se2, centre: Point2<f64>) -> bool {
 
 fn contradicts(evidence: &Evidence) -> bool {
     let walls = &evidence.relaxed;
-    evidence.is_comparable()
-        && walls.conflict_m > VETO_M + VETO_SHARE * (walls.hit_m + walls.near_miss_m)
+    evidence.is_comparable() && walls.conflict_m > VETO_M + walls.hit_m + walls.near_miss_m
 }

@@ -65,6 +65,8 @@ pub(crate) fn placed(
         }
     }
     let reference = index(reference).unwrap_or(0);
+    let loops = edges.len() as f64 / (members.len().max(2) - 1) as f64;
+    let freedom = 3.0 * (edges.len() as f64 + 1.0 - members.len() as f64);
     let graph = PoseGraph { nodes: members.len(), edges };
     let params = SolveParams { references: vec![reference], ..SolveParams::default() };
     let solution = solve(&graph, &params, &())?;
@@ -73,13 +75,17 @@ pub(crate) fn placed(
         [component] => Some(component),
         _ => None,
     };
+    // All pairs of a map share its drift, so that many are no more evidence than a tree of them;
+    // and where they disagree by more than they say, none is as sure as it says.
+    let disagreement = whole.map_or(0.0, |component| component.cost) / freedom.max(3.0);
+    let inflation = loops.max(1.0) * disagreement.max(1.0);
     let place = |(index, (map, part_from_map)): (usize, &(usize, Se2))| {
         let node = whole.map(|component| component.nodes[index]);
         Place {
             map: *map,
             reference_from_map: node
                 .map_or(reference_from_part * *part_from_map, |node| node.reference_from_node),
-            covariance: node.and_then(|node| node.covariance),
+            covariance: node.and_then(|node| node.covariance).map(|found| found * inflation),
             bend_m: bends[index],
         }
     };

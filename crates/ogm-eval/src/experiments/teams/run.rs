@@ -10,7 +10,7 @@ use super::record::{Answer, Judged, Pair};
 use crate::judge::{PoseError, Tolerance, Truth, UNSEEN, nees};
 use crate::options::Options;
 
-/// Where the seeds of this experiment begin; those below 5 million served to develop it.
+/// Where the seeds of this experiment begin; those from 7 million on served to develop it.
 const FIRST_SEED: u64 = 6_000_000;
 /// Robots of a team.
 const ROBOTS: [u64; 2] = [3, 12];

@@ -48,6 +48,7 @@
 
 mod bend;
 mod bounds;
+mod composite;
 mod confidence;
 mod correlate;
 mod correlation_planes;
@@ -79,6 +80,7 @@ mod wall_points;
 mod weights;
 mod work;
 
+pub use composite::pose_probabilities;
 pub use error::MatchError;
 pub use evidence::{Evidence, Relaxed};
 pub use matching::{match_maps, match_prepared, score_pose};

@@ -27,7 +27,7 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     /// Finds the transform between two maps
     Align(AlignArgs),
-    /// Makes one map of two
+    /// Makes one map of several
     Merge(MergeArgs),
     /// Says what a map file holds, and what is wrong with it
     Info(InfoArgs),
@@ -51,8 +51,8 @@ pub(crate) struct AlignArgs {
 
 #[derive(Debug, Args)]
 pub(crate) struct MergeArgs {
-    /// The maps; the frame of the first is kept
-    #[arg(value_name = "MAP.yaml", required = true, num_args = 2..)]
+    /// The maps, or folders of maps; the frame of the first is kept
+    #[arg(value_name = "MAP.yaml", required = true, num_args = 1..)]
     pub(crate) maps: Vec<PathBuf>,
     /// The merged map; its image goes beside it
     #[arg(short, long, value_name = "OUT.yaml")]
@@ -60,16 +60,20 @@ pub(crate) struct MergeArgs {
     /// Writes what was found and done as JSON
     #[arg(long, value_name = "R.json")]
     pub(crate) report: Option<PathBuf>,
-    /// Draws the maps on each other: the first blue, the second orange, both black
+    /// Draws the maps on each other: the first blue, the second orange, common walls black
     #[arg(long, value_name = "O.png")]
     pub(crate) overlay: Option<PathBuf>,
+    /// Of more than two maps, that whose frame is kept [default: the first]
+    #[arg(long, value_name = "MAP.yaml")]
+    pub(crate) reference: Option<PathBuf>,
     /// What a cell becomes that both maps know
     #[arg(long, value_name = "RULE", value_enum, default_value_t)]
     pub(crate) fusion: Fusion,
     /// Metres a cell of the merged map [default: that of the first map]
     #[arg(long, value_name = "M", value_parser = metres)]
     pub(crate) resolution: Option<f64>,
-    /// Writes the first map alone where the maps do not match; the exit code is still 3
+    /// Where not all maps match, writes those that hang together with the first; the exit code is
+    /// still 3
     #[arg(long)]
     pub(crate) allow_partial: bool,
     /// Overwrites existing outputs; never an input

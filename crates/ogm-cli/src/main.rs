@@ -16,6 +16,7 @@ mod pose;
 mod progress;
 mod search;
 mod tags;
+mod team;
 mod terminal;
 mod text;
 mod usage;

@@ -1,4 +1,4 @@
-//! `ogm merge`: one map of two.
+//! `ogm merge`: one map of several; here of two.
 
 use std::path::Path;
 
@@ -16,7 +16,7 @@ use crate::progress::Bar;
 use crate::search::{check, search};
 use crate::tags::logs_of;
 use crate::usage::UsageError;
-use crate::{output, terminal, text};
+use crate::{output, team, terminal, text};
 
 /// What was found and done.
 #[derive(Debug, Serialize)]
@@ -43,11 +43,13 @@ struct Output {
 }
 
 pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
-    let [target, source] = &args.maps[..] else {
-        let count = args.maps.len();
-        let message = format!("merge takes two maps for now, not {count}");
-        return Err(UsageError(message).into());
+    let maps = team::maps_in(&args.maps, &args.output)?;
+    let [target, source] = &maps[..] else {
+        return team::run(args, &maps);
     };
+    if args.reference.is_some() {
+        return Err(UsageError("--reference is for more than two maps".to_owned()).into());
+    }
     let quiet = args.search.quiet;
     let logs = logs_of(&[target, source], &args.search.tags)?;
     check(&args.search, &logs)?;

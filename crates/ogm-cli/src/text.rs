@@ -5,6 +5,7 @@ use std::path::Path;
 
 use grid_merge::Merged;
 use ogm_core::{OccupancyGrid, Outcome, Se2};
+use ogm_merge::TeamReport;
 
 use crate::answer::PairAnswer;
 use crate::terminal::highlight;
@@ -68,6 +69,19 @@ fn identity(target_from_source: &Se2) -> &'static str {
     let is_identity =
         pose.x().abs() < 5e-4 && pose.y().abs() < 5e-4 && pose.theta().to_degrees().abs() < 5e-3;
     if is_identity { " (identity)" } else { "" }
+}
+
+/// How many maps hang together, of how many.
+pub(crate) fn team_verdict(report: &TeamReport, maps: usize) -> String {
+    let (together, apart) = (report.components[0].members.len(), report.components.len() - 1);
+    if apart == 0 {
+        format!("{}: all {maps} maps hang together\n", highlight("merged", GREEN))
+    } else {
+        let (verdict, colour) =
+            if together > 1 { ("partly merged", YELLOW) } else { ("no-match", RED) };
+        let verdict = highlight(verdict, colour);
+        format!("{verdict}: {together} of {maps} maps hang together with the reference\n")
+    }
 }
 
 /// That a map was written.

@@ -1,6 +1,6 @@
 //! Input that cannot be meant, and calls that were ended.
 
-use ogm_core::{Cancelled, GridError};
+use ogm_core::{Cancelled, GridError, ParameterError};
 
 /// Why a call gave no report: input that cannot be meant, or a cancelled call.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -24,6 +24,9 @@ pub enum MergeError {
     /// The search for a transform.
     #[error(transparent)]
     Matching(#[from] grid_match::MatchError),
+    /// The joint poses of a team.
+    #[error(transparent)]
+    Graph(#[from] pose_graph2d::GraphError),
     /// The maps or parameters of the segment and Radon method.
     #[error(transparent)]
     Radon(#[from] radon_merge::RadonError),
@@ -35,6 +38,9 @@ pub enum MergeError {
         /// How many there are.
         maps: usize,
     },
+    /// A parameter outside its range.
+    #[error(transparent)]
+    Parameter(#[from] ParameterError),
     /// The call was asked to end.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -50,6 +56,7 @@ impl MergeError {
                 | Self::Walk(carpin_walk::WalkError::Cancelled(_))
                 | Self::Fusion(grid_merge::FusionError::Cancelled(_))
                 | Self::Matching(grid_match::MatchError::Cancelled(_))
+                | Self::Graph(pose_graph2d::GraphError::Cancelled(_))
                 | Self::Radon(radon_merge::RadonError::Cancelled(_))
                 | Self::Tags(rfid_loc::TagError::Cancelled(_))
         )

@@ -26,6 +26,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
+//! [`merge_team`] does the same for any number of maps.
+//!
 //! The papers' methods by themselves, with the knobs and the evidence of every stage:
 //!
 //! - [`align_by_tags`]: methods #1 to #3 of Tsardoulias, Thallas, Petrou, *Metric Map Merging using
@@ -37,12 +39,17 @@
 
 mod error;
 mod evidence;
+mod join;
 #[cfg(feature = "serde")]
 mod json;
+mod link;
 mod merge;
 mod method;
 mod pair;
+mod parallel;
 mod params;
+mod part;
+mod place;
 mod pose;
 mod recipes;
 mod report;
@@ -52,6 +59,10 @@ mod schedule;
 mod segments;
 mod stop;
 mod tagged;
+mod team;
+mod team_pairs;
+mod team_params;
+mod team_report;
 mod verify;
 mod walk;
 mod warning;
@@ -71,6 +82,9 @@ pub use rfid_loc::{FilterParams, localise};
 pub use robot_map::RobotMap;
 pub use segments::{TeamMerge, align_by_radon, merge_by_radon};
 pub use tagged::{TagReport, align_by_tags};
+pub use team::merge_team;
+pub use team_params::{KnownPose, TeamParams};
+pub use team_report::{Join, TeamPair, TeamReport};
 pub use walk::{CarpinParams, CarpinReport, align_carpin};
 pub use warning::Warning;
 

@@ -1,6 +1,6 @@
 //! The front door: two maps and a method in, one report out.
 
-use grid_match::{Evidence, MatchParams, Prior, match_maps};
+use grid_match::{Evidence, MatchParams, MatchReport, Prior, match_maps};
 use ogm_core::{Outcome, Progress, Refusal, Se2, Stage};
 use radon_merge::{Candidate, RadonParams};
 use rfid_loc::{common_tags, select_tags};
@@ -59,6 +59,28 @@ fn searching(progress: &dyn Progress) -> Stage<'_> {
     Stage::new(progress, 0.0, SEARCH)
 }
 
+impl PairReport {
+    /// What was found by the maps alone.
+    pub(crate) fn of_match(found: MatchReport, seed: u64) -> Self {
+        let best = found.hypotheses.first();
+        let stretch = best.map(|best| [best.bend.stretch.x, best.bend.stretch.y]);
+        let stretched = stretch
+            .filter(|stretch| stretch.iter().any(|share| share.abs() > MOST_STRETCH))
+            .map(|stretch| Warning::Stretched { stretch });
+        Self {
+            method: Method::Match,
+            seed,
+            outcome: found.outcome.clone(),
+            target_from_source: best.map(|best| best.pose.target_from_source),
+            overlap: best.map(|best| best.overlap),
+            agreement: best.map(|best| best.agreement),
+            hypotheses: found.hypotheses.iter().map(Hypothesis::from).collect(),
+            warnings: stretched.into_iter().collect(),
+            stages: Stages { matching: Some(found), ..Stages::default() },
+        }
+    }
+}
+
 /// What every method is given.
 #[derive(Debug, Clone, Copy)]
 struct Pair<'a> {
@@ -104,22 +126,7 @@ impl Pair<'_> {
         let prior = self.params.prior.or_else(|| self.are_copies().then(at_identity));
         let matching = MatchParams { prior, ..self.params.matching.clone() };
         let found = match_maps(self.target.map, self.source.map, &matching, progress)?;
-        let best = found.hypotheses.first();
-        let stretch = best.map(|best| [best.bend.stretch.x, best.bend.stretch.y]);
-        let stretched = stretch
-            .filter(|stretch| stretch.iter().any(|share| share.abs() > MOST_STRETCH))
-            .map(|stretch| Warning::Stretched { stretch });
-        Ok(PairReport {
-            method: Method::Match,
-            seed: self.params.seed,
-            outcome: found.outcome.clone(),
-            target_from_source: best.map(|best| best.pose.target_from_source),
-            overlap: best.map(|best| best.overlap),
-            agreement: best.map(|best| best.agreement),
-            hypotheses: found.hypotheses.iter().map(Hypothesis::from).collect(),
-            warnings: stretched.into_iter().collect(),
-            stages: Stages { matching: Some(found), ..Stages::default() },
-        })
+        Ok(PairReport::of_match(found, self.params.seed))
     }
 
     fn by_tags(

@@ -1,5 +1,8 @@
 //! Under what conditions two robots map one floor.
 
+use std::f64::consts::PI;
+
+use nalgebra::Vector2;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
@@ -85,4 +88,10 @@ fn drift(rng: &mut ChaCha8Rng) -> DriftParams {
             rng.random_range(0.02..0.25)
         },
     }
+}
+
+/// Of length 1.
+pub(crate) fn direction(rng: &mut ChaCha8Rng) -> Vector2<f64> {
+    let (sin, cos) = rng.random_range(-PI..PI).sin_cos();
+    Vector2::new(cos, sin)
 }

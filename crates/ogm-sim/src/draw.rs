@@ -20,6 +20,7 @@ pub(crate) enum Stream {
     Pair,
     Route,
     Style,
+    Team,
 }
 
 /// The generator of `stream` for the work item `item`.

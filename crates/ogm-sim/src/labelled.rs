@@ -4,9 +4,8 @@ use nalgebra::Vector2;
 use ogm_core::{OccupancyGrid, RobotId};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
-use std::f64::consts::PI;
 
-use crate::conditions::Conditions;
+use crate::conditions::{Conditions, direction};
 use crate::draw::{Stream, generator};
 use crate::explore::{Part, explore, free_space};
 use crate::navigate::FreeSpace;
@@ -231,9 +230,4 @@ fn labelled(
     let exact = !drifts && conditions.moved_share == 0.0;
     let styles = [MapStyle::Plain; 2];
     LabelledPair { target: target.map, source: source.map, truth, exact, styles }
-}
-
-fn direction(rng: &mut ChaCha8Rng) -> Vector2<f64> {
-    let (sin, cos) = rng.random_range(-PI..PI).sin_cos();
-    Vector2::new(cos, sin)
 }

@@ -26,6 +26,7 @@
 //!   [`map_along_path`] sends one robot along any path.
 //! - [`labelled_pair`]: two maps of floors of many kinds, overlapping or not, with the transform
 //!   that is right, to measure and to calibrate a matcher.
+//! - [`labelled_team`]: the maps of a whole team, robots that never meet and a stranger among them.
 //! - Real maps: [`drive`] finds a path through their free space and [`tag_readings`] reads
 //!   simulated tags along it.
 //!
@@ -40,6 +41,7 @@ mod error;
 mod explore;
 mod floors;
 mod labelled;
+mod labelled_team;
 mod lidar;
 mod mapping;
 mod navigate;
@@ -63,6 +65,7 @@ pub use drive::{DriveParams, drive};
 pub use error::SimError;
 pub use floors::FloorKind;
 pub use labelled::{LabelledPair, Relation, labelled_pair};
+pub use labelled_team::{LabelledTeam, labelled_team};
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
 pub use pair::{SimulatedPair, simulate_pair};

@@ -1,6 +1,7 @@
 //! Occupancy grid maps as pictures.
 //!
-//! [`occupancy`] shows one map in greys, [`overlay`] two maps on each other. Where a map has more
+//! [`occupancy`] shows one map in greys, [`overlay`] two maps on each other and
+//! [`overlay_all`] any number. Where a map has more
 //! than 1000 cells a side a pixel shows several of them, and walls win, so that a thin wall
 //! of a large map stays visible. The highest row of a grid is at the top of its picture.
 //!
@@ -24,8 +25,10 @@ mod raster;
 pub use error::ViewError;
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;
-pub use overlay::overlay;
-pub use palette::{BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL, UNKNOWN};
+pub use overlay::{overlay, overlay_all};
+pub use palette::{
+    BLANK, COMMON_WALL, FREE, SOURCE_WALL, TARGET_WALL, UNKNOWN, wall_colour, wall_colour_name,
+};
 pub use raster::{crop_known, enlarge, occupancy, paint, png, reduce, side_by_side};
 
 #[cfg(doctest)]

@@ -5,5 +5,6 @@ pub(crate) mod methods;
 pub(crate) mod random_walk;
 pub(crate) mod real_pairs;
 pub(crate) mod segments;
+pub(crate) mod teams;
 pub(crate) mod wall_direction;
 pub(crate) mod worked_tables;

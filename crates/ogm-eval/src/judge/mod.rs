@@ -8,6 +8,6 @@ mod verdict;
 
 pub(crate) use error::{NEES_95, PIXEL, PoseError, TransformError, nees};
 pub(crate) use overlap::Overlap;
-pub(crate) use tolerance::{DIRECTION, HALF_A_DOOR, METHOD_3, SAME_WALLS, Tolerance, WALK};
+pub(crate) use tolerance::{DIRECTION, HALF_A_DOOR, METHOD_3, SAME_WALLS, Tolerance, UNSEEN, WALK};
 pub(crate) use truth::Truth;
 pub(crate) use verdict::Verdict;

@@ -30,6 +30,10 @@ pub(crate) const NEAR: Tolerance = Tolerance::of_pose(Length::metres(0.5), 2.0);
 /// what both robots observed, and what the best rigid transform leaves comes on top.
 pub(crate) const LABELLED: Tolerance = Tolerance::of_pose(Length::metres(0.4), 3.0);
 
+/// Maps of one component that observed nothing in common: what a chain of bent maps may add up to,
+/// and far from another room.
+pub(crate) const UNSEEN: Tolerance = Tolerance::of_pose(Length::metres(1.5), 6.0);
+
 /// Carpin and Birk's maps of 100 × 100 coarse cells: a walk is judged in its cells.
 pub(crate) const WALK: Tolerance = Tolerance::of_pose(Length::cells(2.0), 3.0);
 

@@ -3,6 +3,7 @@
 mod component;
 mod pair;
 mod stages;
+mod team;
 
 use nalgebra::Matrix3;
 

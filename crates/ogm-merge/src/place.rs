@@ -1,0 +1,79 @@
+//! Joint poses of maps that hang together, by all pairs that agree with how they were joined.
+
+use grid_match::PreparedMap;
+use nalgebra::{Matrix3, Point2};
+use ogm_core::{RelativePose, Se2, wrap_angle};
+use pose_graph2d::{Edge, PoseGraph, SolveParams, solve};
+
+use crate::MergeError;
+use crate::team_pairs::Matched;
+
+/// A pair agrees with how its maps were joined within this, metres at the middle of the source and
+/// radians: more than the drift of some maps in a row, and what makes another answer.
+const AGREES: (f64, f64) = (0.75, 0.1);
+
+/// A map in its place; no covariance where no chain of pairs says one.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Place {
+    pub(crate) map: usize,
+    pub(crate) reference_from_map: Se2,
+    pub(crate) covariance: Option<Matrix3<f64>>,
+}
+
+/// Which hypothesis of a pair agrees with a pose, `centre` being the middle of the source.
+pub(crate) fn agreeing(
+    pair: &Matched,
+    target_from_source: &Se2,
+    centre: Point2<f64>,
+) -> Option<usize> {
+    let apart = |found: &Se2| {
+        let turn = wrap_angle(found.theta() - target_from_source.theta()).abs();
+        let apart = (*found * centre - *target_from_source * centre).norm();
+        (turn <= AGREES.1 && apart <= AGREES.0).then_some(apart)
+    };
+    let proposals = pair.proposals.iter().enumerate();
+    proposals
+        .filter_map(|(index, found)| Some((apart(&found.pose.target_from_source)?, index)))
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, index)| index)
+}
+
+/// The poses of least squares of `members`, ascending, with their covariances, in the frame of the
+/// member `reference`.
+pub(crate) fn placed(
+    members: &[(usize, Se2)],
+    pairs: &[Matched],
+    prepared: &[PreparedMap],
+    reference: usize,
+) -> Result<Vec<Place>, MergeError> {
+    let index = |map: usize| members.iter().position(|(member, _)| *member == map);
+    let mut edges = Vec::new();
+    for pair in pairs {
+        let Some((target, source)) = index(pair.target).zip(index(pair.source)) else { continue };
+        let target_from_source = members[target].1.between(&members[source].1);
+        let centre = prepared[pair.source].centre();
+        if let Some(agreeing) = agreeing(pair, &target_from_source, centre) {
+            let pose = RelativePose { probability: 1.0, ..pair.proposals[agreeing].pose };
+            edges.push(Edge { target, source, hypotheses: vec![pose] });
+        }
+    }
+    let reference = index(reference).unwrap_or(0);
+    let graph = PoseGraph { nodes: members.len(), edges };
+    let params = SolveParams { references: vec![reference], ..SolveParams::default() };
+    let solution = solve(&graph, &params, &())?;
+    let reference_from_part = members[reference].1.inverse();
+    let whole = match &solution.components[..] {
+        [component] => Some(component),
+        _ => None,
+    };
+    let place = |(index, (map, part_from_map)): (usize, &(usize, Se2))| {
+        let node = whole.map(|component| component.nodes[index]);
+        Place {
+            map: *map,
+            reference_from_map: node
+                .map_or(reference_from_part * *part_from_map, |node| node.reference_from_node),
+            covariance: node.and_then(|node| node.covariance),
+        }
+    };
+    Ok(members.iter().enumerate().map(place).collect())
+}

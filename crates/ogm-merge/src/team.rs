@@ -1,0 +1,153 @@
+//! The front door for a team: any number of maps in, one report out.
+
+use std::cmp::Reverse;
+
+use nalgebra::Matrix3;
+use ogm_core::{Outcome, Progress, Refusal, Se2, Stage};
+
+use crate::join::join;
+use crate::link::Evidences;
+use crate::merge::{Component, Member};
+use crate::part::Part;
+use crate::place::{Place, agreeing, placed};
+use crate::team_pairs::{given, matched, prepared};
+use crate::team_params::TeamParams;
+use crate::team_report::{TeamPair, TeamReport};
+use crate::{MergeError, RobotMap};
+
+/// Shares of the work after which the maps are prepared, the pairs matched, and all is joined.
+const PREPARED: f64 = 0.05;
+const MATCHED: f64 = 0.8;
+
+/// Finds which maps hang together, and where each lies.
+///
+/// Every pair is matched by itself. Then groups of maps are joined, the surest first: what speaks
+/// for and against a join is counted once, on the maps of each group laid together, so that a map
+/// that no single other places may be placed by all of them, and one pair that contradicts a join
+/// vetoes it. What cannot be placed stays apart. The joint poses are those of least squares over
+/// all pairs that agree. Neither the order of the maps nor copies among them change the answer.
+///
+/// # Errors
+/// Input that cannot be meant, or a call that was cancelled; maps that do not hang together are
+/// several components.
+pub fn merge_team(
+    maps: &[RobotMap<'_>],
+    params: &TeamParams,
+    progress: &dyn Progress,
+) -> Result<TeamReport, MergeError> {
+    params.check(maps.len())?;
+    let copies = copies(maps, params.reference);
+    let is_copy = |map: usize| copies.iter().any(|(copy, _)| *copy == map);
+    let originals: Vec<usize> = (0..maps.len()).filter(|&map| !is_copy(map)).collect();
+    let prepared = prepared(maps, params, &Stage::new(progress, 0.0, PREPARED))?;
+    let all: Vec<(usize, usize)> = originals
+        .iter()
+        .enumerate()
+        .flat_map(|(index, &a)| originals[index + 1..].iter().map(move |&b| (a, b)))
+        .collect();
+    let open: Vec<_> =
+        all.iter().copied().filter(|&(a, b)| given(params, a, b).is_none()).collect();
+    let matching = Stage::new(progress, PREPARED, MATCHED);
+    let pairs = matched(maps, &prepared, &open, params, &matching)?;
+
+    let matching = &params.align.matching;
+    let evidences = Evidences { prepared: &prepared, pairs: &pairs, repeats: matching.repeats };
+    let thresholds = &matching.thresholds;
+    let is_given = |map: usize| params.known(map).filter(|known| known.is_given());
+    let known = originals.iter().filter_map(|&map| Some((map, is_given(map)?.reference_from_map)));
+    let known: Vec<(usize, Se2)> = known.collect();
+    let mut parts = Vec::with_capacity(originals.len());
+    if known.len() > 1 {
+        parts.push(Some(Part::of(known.clone(), &prepared, thresholds)?));
+    }
+    let is_known = |map: usize| known.len() > 1 && known.iter().any(|(known, _)| *known == map);
+    let alone = originals.iter().copied().filter(|&map| !is_known(map));
+    parts.extend(alone.map(|map| Some(Part::alone(map))));
+    let joining = Stage::new(progress, MATCHED, 1.0);
+    let (parts, joins) = join(parts, &evidences, matching.accept, thresholds, &joining)?;
+
+    let mut components = Vec::with_capacity(parts.len());
+    for part in &parts {
+        let maps = part.maps();
+        let reference = if maps.contains(&params.reference) { params.reference } else { maps[0] };
+        let places = placed(&part.members, &pairs, &prepared, reference)?;
+        components.push(component(&places, reference, &copies));
+    }
+    components.sort_by_key(|component| {
+        let first = component.members.iter().map(|member| member.map).min();
+        (Reverse(component.pose(params.reference).is_some()), first)
+    });
+    let mut matched = pairs.into_iter().peekable();
+    let pairs = all.into_iter().map(|(target, source)| {
+        let target_from_source = components
+            .iter()
+            .find_map(|component| Some(component.pose(target)?.between(&component.pose(source)?)));
+        let found = matched.next_if(|pair| (pair.target, pair.source) == (target, source));
+        let centre = prepared[source].centre();
+        let hypothesis = found
+            .as_ref()
+            .zip(target_from_source)
+            .and_then(|(pair, pose)| agreeing(pair, &pose, centre));
+        let report = found.map(|pair| pair.report);
+        TeamPair { target, source, report, target_from_source, hypothesis }
+    });
+    let pairs = pairs.collect();
+    progress.report(1.0);
+    Ok(TeamReport { components, pairs, joins, copies })
+}
+
+/// Maps that hold the same cells in the same place as another: the reference, or else the first,
+/// stands for them.
+fn copies(maps: &[RobotMap<'_>], reference: usize) -> Vec<(usize, usize)> {
+    let order = || {
+        (0..maps.len())
+            .map(|map| if map == 0 { reference } else { map - usize::from(map <= reference) })
+    };
+    let mut originals: Vec<usize> = Vec::new();
+    let mut copies = Vec::new();
+    for map in order() {
+        match originals.iter().find(|&&other| maps[other].map == maps[map].map) {
+            Some(&original) => copies.push((map, original)),
+            None => originals.push(map),
+        }
+    }
+    copies.sort_unstable();
+    copies
+}
+
+/// The reference first, the others ascending, copies where their originals are.
+fn component(places: &[Place], reference: usize, copies: &[(usize, usize)]) -> Component {
+    let member = |map: usize, place: &Place| Member {
+        map,
+        reference_from_map: place.reference_from_map,
+        covariance: if place.map == reference { Some(Matrix3::zeros()) } else { place.covariance },
+    };
+    let mut members: Vec<Member> = Vec::new();
+    for place in places {
+        members.push(member(place.map, place));
+        let same = copies.iter().filter(|(_, original)| *original == place.map);
+        members.extend(same.map(|(copy, _)| member(*copy, place)));
+    }
+    members.sort_by_key(|member| (member.map != reference, member.map));
+    Component { members }
+}
+
+impl Component {
+    /// Maps points of `map` into the frame of the component; `None` if it is not in it.
+    #[must_use]
+    pub fn pose(&self, map: usize) -> Option<Se2> {
+        let member = self.members.iter().find(|member| member.map == map);
+        member.map(|member| member.reference_from_map)
+    }
+}
+
+impl TeamPair {
+    /// Why the pair is not merged, by the two maps themselves; `None` if they match or were given.
+    #[must_use]
+    pub fn refusal(&self) -> Option<&Refusal> {
+        self.report.as_ref().and_then(|report| match &report.outcome {
+            Outcome::Refused(refusal) => Some(refusal),
+            Outcome::Found(_) => None,
+        })
+    }
+}

@@ -1,0 +1,110 @@
+//! What a team says that pairs do not.
+
+#![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
+
+use ogm_core::{OccupancyGrid, Se2};
+use ogm_merge::{KnownPose, RobotMap, TeamParams, TeamReport, merge_team};
+use ogm_sim::{FloorKind, LabelledTeam, labelled_team};
+
+fn merged(maps: &[&OccupancyGrid], params: &TeamParams) -> TeamReport {
+    let maps: Vec<RobotMap<'_>> = maps.iter().map(|&map| RobotMap::from(map)).collect();
+    merge_team(&maps, params, &()).unwrap()
+}
+
+fn team() -> LabelledTeam {
+    labelled_team(FloorKind::Offices, 4, true, 22).unwrap()
+}
+
+/// Where `report` puts every map that hangs together with map 0, in its frame.
+fn poses(report: &TeamReport, maps: usize) -> Vec<Option<Se2>> {
+    let first = &report.components[0];
+    let origin = first.pose(0).unwrap();
+    (0..maps).map(|map| Some(origin.between(&first.pose(map)?))).collect()
+}
+
+#[track_caller]
+fn assert_same(a: &[Option<Se2>], b: &[Option<Se2>], metres: f64) {
+    for (a, b) in a.iter().zip(b) {
+        assert_eq!(a.is_some(), b.is_some());
+        if let Some((a, b)) = a.zip(*b) {
+            let off = a.between(&b);
+            assert!(off.translation().norm() < metres && off.theta().abs() < metres / 5.0, "{off}");
+        }
+    }
+}
+
+#[test]
+fn maps_of_one_floor_are_placed_and_a_stranger_is_not() {
+    let team = team();
+    let maps: Vec<&OccupancyGrid> = team.maps.iter().collect();
+    let report = merged(&maps, &TeamParams::default());
+    let named: usize = report.components.iter().map(|found| found.members.len()).sum();
+    assert_eq!(named, maps.len(), "every map is somewhere");
+    let stranger = team.stranger().unwrap();
+    let alone = report.components.iter().find(|found| found.pose(stranger).is_some()).unwrap();
+    assert_eq!(alone.members.len(), 1);
+    assert!(!report.is_whole());
+    let placed = &report.components[0].members;
+    assert!(placed.len() >= 3, "{} of 4 maps hang together", placed.len());
+    for member in &placed[1..] {
+        let (target, source) = (placed[0].map, member.map);
+        let truth =
+            team.world_from_map[target].unwrap().between(&team.world_from_map[source].unwrap());
+        let off = truth.between(&member.reference_from_map);
+        assert!(off.translation().norm() < 1.0 && off.theta().abs() < 0.1, "{source}: {off}");
+        assert!(member.covariance.unwrap().determinant() > 0.0);
+        assert!(report.probability(target, source).unwrap() >= 0.9);
+    }
+}
+
+#[test]
+fn the_order_of_the_maps_does_not_matter_and_a_copy_moves_nothing() {
+    let team = team();
+    let maps: Vec<&OccupancyGrid> = team.maps.iter().collect();
+    let plain = poses(&merged(&maps, &TeamParams::default()), maps.len());
+
+    let order = [3, 1, 4, 0, 2];
+    let shuffled: Vec<&OccupancyGrid> = order.iter().map(|&map| maps[map]).collect();
+    let params = TeamParams { reference: 3, ..TeamParams::default() };
+    let report = merged(&shuffled, &params);
+    let first = &report.components[0];
+    let origin = first.pose(3).unwrap();
+    let place = |map: usize| order.iter().position(|&other| other == map).unwrap();
+    let other: Vec<Option<Se2>> =
+        (0..maps.len()).map(|map| Some(origin.between(&first.pose(place(map))?))).collect();
+    assert_same(&plain, &other, 0.005);
+
+    let mut doubled = maps.clone();
+    doubled.extend([maps[1], maps[1]]);
+    let report = merged(&doubled, &TeamParams::default());
+    assert_eq!(report.copies, [(5, 1), (6, 1)]);
+    let with_copies = poses(&report, doubled.len());
+    assert_same(&plain, &with_copies[..maps.len()], 1e-9);
+    assert_eq!(with_copies[5], with_copies[1]);
+}
+
+#[test]
+fn given_poses_are_kept_and_searched_for_by_nobody() {
+    let team = team();
+    let maps: Vec<&OccupancyGrid> = team.maps.iter().collect();
+    // Two maps that need not have anything in common, and where they are not.
+    let reference_from_map = Se2::new(40.0, -3.0, 1.0);
+    let pose = KnownPose { map: 4, reference_from_map, sigma_m: 0.0, sigma_rad: 0.0 };
+    let params = TeamParams { poses: vec![pose], ..TeamParams::default() };
+    let report = merged(&maps, &params);
+    let found = report.components[0].pose(4).unwrap();
+    let off = found.between(&reference_from_map);
+    assert!(off.translation().norm() < 1e-9 && off.theta().abs() < 1e-9);
+    let pair = report.pairs.iter().find(|pair| (pair.target, pair.source) == (0, 4)).unwrap();
+    assert!(pair.report.is_none() && pair.target_from_source.is_some());
+}
+
+#[test]
+fn no_maps_and_one_map_are_teams_too() {
+    assert!(merged(&[], &TeamParams::default()).components.is_empty());
+    let team = team();
+    let report = merged(&[&team.maps[0]], &TeamParams::default());
+    assert!(report.is_whole() && report.components[0].members.len() == 1);
+    let params = TeamParams { reference: 7, ..TeamParams::default() };
+    assert!(merge_team(&[RobotMap::from(&team.maps[0])], &params, &()).is_err());
+}

@@ -79,7 +79,7 @@ impl Alignment {
 
     /// Probability that the best transform is right; `None` for a method without a calibrated one.
     #[getter]
-    fn probability(&self) -> Option<f64> {
+    pub(crate) fn probability(&self) -> Option<f64> {
         self.report.probability()
     }
 
@@ -190,7 +190,7 @@ impl Hypothesis {
 
     /// Probability that it is right; `None` for a method without a calibrated one.
     #[getter]
-    fn probability(&self) -> Option<f64> {
+    pub(crate) fn probability(&self) -> Option<f64> {
         self.0.probability
     }
 

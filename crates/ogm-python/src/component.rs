@@ -1,7 +1,7 @@
 //! Maps that hang together, fused.
 
 use numpy::PyArray2;
-use ogm_core::{OccupancyGrid, Progress};
+use ogm_core::{OccupancyGrid, Progress, Stage};
 use ogm_merge::{Component as Members, FusionParams, FusionRule, MergeError, Merged, fuse};
 use pyo3::prelude::{Bound, Py, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyBytes;
@@ -38,6 +38,15 @@ impl Component {
         };
         Ok(Self { members, fused })
     }
+
+    pub(crate) fn each(
+        py: Python<'_>,
+        components: Vec<Members>,
+        merged: Vec<Merged>,
+    ) -> PyResult<Vec<Py<Self>>> {
+        let one = |(members, merged)| Py::new(py, Self::new(py, members, merged)?);
+        components.into_iter().zip(merged).map(one).collect()
+    }
 }
 
 /// How the cells of a component become one map.
@@ -61,6 +70,17 @@ impl Fusion {
         progress: &dyn Progress,
     ) -> Result<Merged, MergeError> {
         fuse(maps, members, &self.0, progress)
+    }
+
+    pub(crate) fn of_each(
+        &self,
+        maps: &[&OccupancyGrid],
+        components: &[Members],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Merged>, MergeError> {
+        let count = components.len();
+        let one = |(index, members)| self.of(maps, members, &Stage::nth(progress, index, count));
+        components.iter().enumerate().map(one).collect()
     }
 }
 

@@ -11,9 +11,11 @@ mod map;
 mod merge;
 mod message;
 mod numbers;
+mod outcome;
 mod picture;
 mod search;
 mod tags;
+mod team;
 mod transform;
 mod walk;
 mod walls;
@@ -32,7 +34,9 @@ mod _native {
     #[pymodule_export]
     use crate::map::{Map, load, overlay};
     #[pymodule_export]
-    use crate::merge::{Merge, Pair, fuse, merge};
+    use crate::merge::{fuse, merge};
+    #[pymodule_export]
+    use crate::outcome::{Join, Merge, Pair};
     #[pymodule_export]
     use crate::picture::Picture;
     #[pymodule_export]

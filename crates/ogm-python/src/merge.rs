@@ -1,33 +1,40 @@
 //! Maps into one map: by a search, or in poses that are known.
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use numpy::PyArray2;
 use ogm_core::{OccupancyGrid, Stage};
-use ogm_merge::{Component as Members, Member, RobotMap, align_pair};
-use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pyfunction, pymethods};
-use pyo3::types::PyBytes;
+use ogm_merge::{Component as Members, Member, MergeError, RobotMap, align_pair};
+use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyfunction};
 
 use crate::align::Alignment;
 use crate::background::Background;
 use crate::component::{Component, Fusion};
 use crate::error::MapError;
 use crate::map::Map;
+use crate::outcome::{Merge, Pair};
 use crate::search::Search;
 use crate::tags::of_maps;
-use crate::transform::{Transform, optional, pose};
+use crate::team::{Known, merge_known};
+use crate::transform::{optional, pose};
 
 /// Share of a merge that its search takes; the rest is the fusion.
 const SEARCH: f64 = 0.8;
 
-/// Finds how two maps lie to each other and makes one map of them.
+/// Finds how maps lie to each other and makes one map of them.
+///
+/// Two maps are aligned as by `align`. Of more, every pair is; then groups of maps are joined by
+/// what all of their walls say together. `poses` has the poses of maps that are known, by their
+/// place in `maps`, in the frame of map `reference`, with standard deviations `poses_sigma` in
+/// metres and radians; without them the poses are taken as given.
 ///
 /// Maps that do not hang together are a value, not an exception: `bool(result)` says whether they
-/// do, `result.reason` why not, and `result.components` has each alone.
+/// do, and `result.components` has each group as one map.
 #[pyfunction]
 #[pyo3(signature = (
     maps, *, method = "auto", tags = None, prior = None, prior_sigma = None, accept = None,
-    repeats = false, seed = 0, fusion = None, resolution = None, threads = None, progress = None
+    repeats = false, seed = 0, poses = None, poses_sigma = None, reference = 0,
+    fusion = None, resolution = None, threads = None, progress = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "keywords")]
 pub(crate) fn merge(
@@ -40,6 +47,9 @@ pub(crate) fn merge(
     accept: Option<f64>,
     repeats: bool,
     seed: u64,
+    poses: Option<BTreeMap<usize, Bound<'_, PyAny>>>,
+    poses_sigma: Option<(f64, f64)>,
+    reference: usize,
     fusion: Option<&str>,
     resolution: Option<f64>,
     threads: Option<usize>,
@@ -48,35 +58,33 @@ pub(crate) fn merge(
     let search = Search::new(method, accept, repeats, seed)?.starting_at(prior, prior_sigma)?;
     let fusion = Fusion::new(fusion, resolution)?;
     let background = Background::new(threads, progress)?;
-    let [target, source] = &grids_of(&maps)[..] else {
-        let count = maps.len();
-        let text = format!("merge takes two maps for now, not {count}; align pairs, then fuse");
-        return Err(MapError::new_err(text));
+    let grids = grids_of(&maps);
+    let known = Known::new(poses.unwrap_or_default(), poses_sigma, reference)?;
+    let tags = of_maps(tags, grids.len())?;
+    let [target, source] = match &grids[..] {
+        [target, source] if known.is_nothing() => [target, source],
+        [_, _, ..] => return merge_known(py, &grids, &tags, known, search, &fusion, &background),
+        _ => {
+            let text = format!("merge takes at least two maps, not {}", grids.len());
+            return Err(MapError::new_err(text));
+        }
     };
-    let tags = of_maps(tags, 2)?;
     search.check_tags(&tags)?;
     let (report, parts) = background.run(py, |progress| {
         let [target, source] =
             [(target, 0), (source, 1)].map(|(map, index)| RobotMap { map, tags: &tags[index] });
         let part = Stage::new(progress, 0.0, SEARCH);
         let report = align_pair(search.method, &target, &source, &search.params, &part)?;
-        let found = report.components();
-        let mut parts = Vec::with_capacity(found.len());
-        for (index, members) in found.iter().enumerate() {
-            let part = Stage::new(progress, SEARCH, 1.0);
-            let part = Stage::nth(&part, index, found.len());
-            parts.push(fusion.of(&[target.map, source.map], members, &part)?);
-        }
-        Ok::<_, ogm_merge::MergeError>((report, found.into_iter().zip(parts).collect::<Vec<_>>()))
+        let whole = Stage::new(progress, SEARCH, 1.0);
+        let parts = fusion.of_each(&[target.map, source.map], &report.components(), &whole)?;
+        Ok::<_, MergeError>((report, parts))
     })?;
-    let components = parts
-        .into_iter()
-        .map(|(members, merged)| Py::new(py, Component::new(py, members, merged)?))
-        .collect::<PyResult<_>>()?;
+    let components = Component::each(py, report.components(), parts)?;
     let transform = optional(report.outcome.clone().found().as_ref());
     let alignment = Alignment::new(report, [Arc::clone(target), Arc::clone(source)]);
-    let pair = Pair { target: 0, source: 1, alignment: Py::new(py, alignment)?, transform };
-    Ok(Merge { components, pairs: vec![Py::new(py, pair)?] })
+    let alignment = Some(Py::new(py, alignment)?);
+    let pair = Py::new(py, Pair { target: 0, source: 1, alignment, transform })?;
+    Ok(Merge { components, pairs: vec![pair], team: None })
 }
 
 /// Makes one map of maps whose poses are known: nothing is searched and nothing is doubted.
@@ -117,97 +125,4 @@ pub(crate) fn fuse(
 
 fn grids_of(maps: &[Bound<'_, Map>]) -> Vec<Arc<OccupancyGrid>> {
     maps.iter().map(|map| Arc::clone(&map.get().grid)).collect()
-}
-
-/// What was found about maps, and what was made of them.
-#[pyclass(frozen, module = "ogm_maps")]
-#[derive(Debug)]
-pub(crate) struct Merge {
-    components: Vec<Py<Component>>,
-    pairs: Vec<Py<Pair>>,
-}
-
-/// Two of the maps that were merged.
-#[pyclass(frozen, module = "ogm_maps")]
-#[derive(Debug)]
-pub(crate) struct Pair {
-    /// Which map is the target, from 0.
-    #[pyo3(get)]
-    target: usize,
-    /// Which map is the source.
-    #[pyo3(get)]
-    source: usize,
-    /// What the two maps say by themselves.
-    #[pyo3(get)]
-    alignment: Py<Alignment>,
-    /// Where the merge puts the source in the target; `None` if they do not hang together.
-    #[pyo3(get)]
-    transform: Option<Transform>,
-}
-
-#[pymethods]
-impl Pair {
-    fn __repr__(&self) -> String {
-        let (target, source) = (self.target, self.source);
-        let together = if self.transform.is_some() { "together" } else { "apart" };
-        format!("Pair({target}, {source}, {together})")
-    }
-}
-
-impl Merge {
-    /// The component of all maps, if they hang together.
-    fn whole(&self) -> Option<&Component> {
-        let [whole] = &self.components[..] else { return None };
-        Some(whole.get())
-    }
-}
-
-#[pymethods]
-impl Merge {
-    /// Maps that hang together, that of the first map first; a map that could not be placed is
-    /// alone.
-    #[getter]
-    fn components(&self, py: Python<'_>) -> Vec<Py<Component>> {
-        self.components.iter().map(|component| component.clone_ref(py)).collect()
-    }
-
-    /// The pairs that were searched.
-    #[getter]
-    fn pairs(&self, py: Python<'_>) -> Vec<Py<Pair>> {
-        self.pairs.iter().map(|pair| pair.clone_ref(py)).collect()
-    }
-
-    /// All maps as one; `None` unless they hang together.
-    #[getter]
-    fn map(&self, py: Python<'_>) -> Option<Py<Map>> {
-        self.whole().map(|whole| whole.map(py))
-    }
-
-    /// Cells of `map` where one map says wall and another says free; `None` without it.
-    #[getter]
-    fn conflicts(&self, py: Python<'_>) -> Option<Py<PyArray2<bool>>> {
-        self.whole().map(|whole| whole.conflicts(py))
-    }
-
-    /// Why not all maps hang together; `None` where they do.
-    #[getter]
-    fn reason(&self) -> Option<String> {
-        self.pairs
-            .iter()
-            .find_map(|pair| pair.get().alignment.get().reason())
-            .filter(|_| self.whole().is_none())
-    }
-
-    fn _repr_png_<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyBytes>>> {
-        self.whole().map(|whole| whole._repr_png_(py)).transpose()
-    }
-
-    fn __bool__(&self) -> bool {
-        self.whole().is_some()
-    }
-
-    fn __repr__(&self) -> String {
-        let members = self.components.iter().map(|component| component.get().members());
-        format!("Merge(components={:?})", members.collect::<Vec<_>>())
-    }
 }

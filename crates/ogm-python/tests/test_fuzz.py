@@ -116,6 +116,7 @@ def likely(draw, maps, name):
         "count": lambda: draw.choice([0, 1, 2, 5, 10**6, 2**62]),
         "word": lambda: draw.choice(["auto", "match", "rfid3", "carpin", "radon", "first", "no"]),
         "pair": lambda: (draw.choice([0.0, 0.1, -1.0, 1e9]), draw.choice([0.0, 0.1, math.nan])),
+        "known": lambda: {draw.choice([0, 1, 2, 9]): pose()},
         "tags": lambda: draw.choice([(None, None), ([], []), ["a", "b"], [None]]),
         "log": lambda: np.abs(np.random.default_rng(draw.getrandbits(9)).integers(0, 3, (9, 4))),
         "flag": lambda: draw.random() < 0.5,
@@ -136,7 +137,7 @@ FUSION = {"fusion": "word", "resolution": "number"}
 FUNCTIONS = [
     (ogm.Map.from_array, ["array", "number"], {"origin": "pose"}),
     (ogm.align, ["map", "map"], SEARCH),
-    (ogm.merge, ["maps"], {**SEARCH, **FUSION}),
+    (ogm.merge, ["maps"], {**SEARCH, **FUSION, "poses": "known", "poses_sigma": "pair"}),
     (ogm.fuse, ["maps", "poses"], FUSION),
     (ogm.overlay, ["map", "map", "pose"], {}),
     (ogm.icp, ["map", "map", "pose"], {"metric": "word"}),

@@ -18,5 +18,5 @@ def test_the_readme_runs(tmp_path, monkeypatch, folder, truth):
         exec(compile(block, str(README), "exec"), names)
     assert (tmp_path / "merged.yaml").is_file()
     assert abs(names["r"].transform.x - truth.x) < 0.1
-    assert names["known"].map.shape == names["t"].map.shape
+    assert names["known"].map.shape == names["t"].components[0].map.shape
     assert names["refined"].termination == "converged"

@@ -16,18 +16,19 @@ use crate::transform::{Transform, optional, pose};
 ///
 /// The start must be good to about half a metre. `metric` is "point-to-point" or "point-to-line".
 #[pyfunction]
-#[pyo3(signature = (target, source, start, *, metric = "point-to-point"))]
+#[pyo3(signature = (target, source, start, *, metric = None))]
 pub(crate) fn icp(
     py: Python<'_>,
     target: &Bound<'_, Map>,
     source: &Bound<'_, Map>,
     start: &Bound<'_, PyAny>,
-    metric: &str,
+    metric: Option<&str>,
 ) -> PyResult<Refinement> {
     let metric = match metric {
-        "point-to-point" => Metric::PointToPoint,
-        "point-to-line" => Metric::PointToLine,
-        _ => {
+        None => Metric::default(),
+        Some("point-to-point") => Metric::PointToPoint,
+        Some("point-to-line") => Metric::PointToLine,
+        Some(metric) => {
             let text =
                 format!("no metric is called {metric:?}; there are point-to-point, point-to-line");
             return Err(MapError::new_err(text));
@@ -90,9 +91,9 @@ impl Refinement {
         self.found.map_or(0, |found| found.iterations)
     }
 
-    /// Pairs of wall points at the end.
+    /// Wall points that were paired at the end.
     #[getter]
-    fn pairs(&self) -> usize {
+    fn correspondences(&self) -> usize {
         self.found.map_or(0, |found| found.pairs)
     }
 

@@ -75,7 +75,7 @@ def test_a_map_without_walls_has_none_and_says_so():
     assert walls.reason is not None and walls.reason in repr(walls)
 
 
-@pytest.mark.parametrize("metric", ["point-to-point", "point-to-line"])
+@pytest.mark.parametrize("metric", ["point-to-point", "point-to-line", None])
 def test_icp_brings_a_start_home(metric):
     new_from_old = ogm.Transform(4.0, -2.0, 0.4)
     target = room()
@@ -83,7 +83,7 @@ def test_icp_brings_a_start_home(metric):
     truth = new_from_old.inverse()
     start = truth @ ogm.Transform(0.1, -0.08, 0.01)
     found = ogm.icp(target, source, start, metric=metric)
-    assert found and found.termination == "converged" and found.pairs > 100
+    assert found and found.termination == "converged" and found.correspondences > 100
     np.testing.assert_allclose(found.transform.matrix, truth.matrix, atol=0.01)
     assert found.rmse < 0.01
 

@@ -1,7 +1,7 @@
 //! The Python module `ogm_maps._native`: what `ogm-merge` and the steps of the papers do, for
 //! people who work in Python. It converts and decides nothing.
 
-mod align;
+mod alignment;
 mod background;
 mod cells;
 mod component;
@@ -24,7 +24,7 @@ mod walls;
 #[pyo3::pymodule]
 mod _native {
     #[pymodule_export]
-    use crate::align::{Alignment, Hypothesis, align};
+    use crate::alignment::{Alignment, Hypothesis, align};
     #[pymodule_export]
     use crate::component::Component;
     #[pymodule_export]

@@ -7,7 +7,7 @@ use ogm_core::{OccupancyGrid, Stage};
 use ogm_merge::{Component as Members, Member, MergeError, RobotMap, align_pair};
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyfunction};
 
-use crate::align::Alignment;
+use crate::alignment::Alignment;
 use crate::background::Background;
 use crate::component::{Component, Fusion};
 use crate::error::MapError;

@@ -5,7 +5,7 @@ use ogm_merge::TeamReport;
 use pyo3::prelude::{Bound, Py, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyBytes;
 
-use crate::align::Alignment;
+use crate::alignment::Alignment;
 use crate::component::Component;
 use crate::error::MapError;
 use crate::map::Map;

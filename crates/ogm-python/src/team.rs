@@ -8,7 +8,7 @@ use ogm_core::{OccupancyGrid, Stage, TagEstimate};
 use ogm_merge::{KnownPose, MergeError, Method, RobotMap, TeamParams, merge_team};
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python};
 
-use crate::align::Alignment;
+use crate::alignment::Alignment;
 use crate::background::Background;
 use crate::component::{Component, Fusion};
 use crate::error::MapError;

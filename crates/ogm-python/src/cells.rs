@@ -38,10 +38,15 @@ pub(crate) fn from_array(given: &Bound<'_, PyAny>) -> PyResult<Grid<Occupancy>> 
         check(least, most)?;
         array.call_method1("astype", ("int8",))?
     };
-    let ordered = numpy.call_method1("ascontiguousarray", (narrow,))?;
+    // Columns one after another are the rows of the transposed array.
+    let flags = narrow.getattr("flags")?;
+    let by_columns = !flags.getattr("c_contiguous")?.extract::<bool>()?
+        && flags.getattr("f_contiguous")?.extract::<bool>()?;
+    let in_rows = if by_columns { narrow.getattr("T")? } else { narrow };
+    let ordered = numpy.call_method1("ascontiguousarray", (in_rows,))?;
     let cells: PyReadonlyArray2<'_, i8> = ordered.extract()?;
-    // Shape and order of what is read are those of the rows, or it is an error.
-    if !cells.is_c_contiguous() || cells.shape() != [height, width] {
+    let rows = if by_columns { [width, height] } else { [height, width] };
+    if !cells.is_c_contiguous() || cells.shape() != rows {
         return Err(PyTypeError::new_err("the array does not become one in C order"));
     }
     let cells = cells.as_slice().map_err(map_error)?;
@@ -57,8 +62,30 @@ pub(crate) fn from_array(given: &Bound<'_, PyAny>) -> PyResult<Grid<Occupancy>> 
             Occupancy::from_probability(f64::from(percent) / f64::from(OCCUPIED))
         }
     });
-    let cells = cells.iter().map(|&cell| bytes[usize::from(cell.cast_unsigned())]).collect();
+    let read = |&cell: &i8| bytes[usize::from(cell.cast_unsigned())];
+    let cells =
+        if by_columns { transposed(cells, height, read) } else { cells.iter().map(read).collect() };
     Grid::new(width, height, cells).map_err(map_error)
+}
+
+/// Rows one after another, of columns of `height` cells one after another. By squares, of which
+/// both sides stay in the cache.
+fn transposed(columns: &[i8], height: usize, read: impl Fn(&i8) -> Occupancy) -> Vec<Occupancy> {
+    const SQUARE: usize = 64;
+    let width = columns.len() / height;
+    let mut cells = vec![Occupancy::UNKNOWN; columns.len()];
+    for row in (0..height).step_by(SQUARE) {
+        let rows = row..height.min(row + SQUARE);
+        for column in (0..width).step_by(SQUARE) {
+            for column in column..width.min(column + SQUARE) {
+                let part = &columns[column * height..][rows.clone()];
+                for (row, cell) in rows.clone().zip(part) {
+                    cells[row * width + column] = read(cell);
+                }
+            }
+        }
+    }
+    cells
 }
 
 fn check(least: i128, most: i128) -> PyResult<()> {

@@ -41,6 +41,8 @@ def test_an_array_comes_back_as_it_was_given():
         CELLS[::2, ::3],
         CELLS.T[::2],
         np.asfortranarray(CELLS),
+        np.tile(CELLS, (23, 9)).T,
+        np.asfortranarray(np.tile(CELLS, (11, 12))),
         np.broadcast_to(CELLS[0], (4, 17)),
         CELLS.astype(np.int64).T,
         CELLS.astype(">i4"),

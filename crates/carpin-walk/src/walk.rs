@@ -109,7 +109,7 @@ pub(crate) fn walk<R: Rules + ?Sized>(
     let mut accepted = vec![start];
     let mut rejected_in_a_row = 0;
     let mut slope = None;
-    let mut trace = Vec::with_capacity(budget.samples);
+    let mut trace = Vec::new();
     let mut end = End::SamplesUsed;
     for samples in 0..budget.samples {
         if best_psi == 0.0 {

@@ -3,7 +3,7 @@
 
 use std::sync::Mutex;
 
-use carpin_walk::{Params, RandomWalk, WalkError, align};
+use carpin_walk::{Budget, Params, RandomWalk, SearchBox, WalkError, align, random_walk};
 use ogm_core::{GridFrame, OccupancyGrid, Progress, Se2};
 
 /// Notes what it hears and cancels from a share on.
@@ -58,4 +58,14 @@ fn several_walks_are_one_work_and_end_when_cancelled() {
         let end = walked(4, &listener(share)).unwrap_err();
         assert!(matches!(end, WalkError::Cancelled(_)), "{share}: {end}");
     }
+}
+
+#[test]
+fn a_walk_without_end_takes_no_memory_for_what_it_does_not_reach() {
+    let space = SearchBox { centre: [0.0; 3], reach: [1.0; 3] };
+    let budget = Budget { samples: usize::MAX, seed: 1, stream: 0 };
+    let rules = RandomWalk::default();
+    let progress = listener(f64::MIN_POSITIVE);
+    let end = random_walk(|_| 1.0, [0.0; 3], &space, &rules, &budget, &progress).unwrap_err();
+    assert!(matches!(end, WalkError::Cancelled(_)), "{end}");
 }

@@ -86,7 +86,7 @@ fn text_files(root: &Path, found: &mut Vec<String>) -> Vec<String> {
             let path = if folder.is_empty() { name.clone() } else { format!("{folder}/{name}") };
             // Unlike the type of the entry, this follows a link.
             if entry.path().is_dir() {
-                if path != "target"
+                if name != "target"
                     && (!name.starts_with('.') || matches!(&*name, ".ci" | ".cargo"))
                 {
                     folders.push(path);

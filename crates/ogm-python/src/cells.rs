@@ -33,9 +33,10 @@ pub(crate) fn from_array(given: &Bound<'_, PyAny>) -> PyResult<Grid<Occupancy>> 
     let narrow = if dtype.getattr("itemsize")?.extract::<usize>()? == 1 && kind == "i" {
         array
     } else {
-        let extremes = (array.call_method0("min")?, array.call_method0("max")?);
-        let (least, most) = (extremes.0.extract::<i128>()?, extremes.1.extract::<i128>()?);
-        check(least, most)?;
+        let extreme = |which| -> PyResult<i128> {
+            array.call_method0(which)?.call_method0("item")?.extract()
+        };
+        check(extreme("min")?, extreme("max")?)?;
         array.call_method1("astype", ("int8",))?
     };
     // Columns one after another are the rows of the transposed array.

@@ -47,11 +47,14 @@ def test_an_exception_in_progress_ends_the_call_and_is_raised(target, source):
 
 
 def test_ctrl_c_ends_a_call(target, source):
+    # A shell starts what it runs in the background deaf to it.
+    before = signal.signal(signal.SIGINT, signal.default_int_handler)
     ask = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT))
     ask.start()
     with pytest.raises(KeyboardInterrupt):
         ogm.random_walk(target, source, HERE, **ENDLESS)
     ask.join()
+    signal.signal(signal.SIGINT, before)
 
 
 def test_other_threads_run_meanwhile(target, source):

@@ -31,7 +31,7 @@ struct FusedMap {
 impl Component {
     pub(crate) fn new(py: Python<'_>, members: Members, merged: Merged) -> PyResult<Self> {
         let fused = FusedMap {
-            conflicts: mask(py, &merged.conflicts)?.unbind(),
+            conflicts: mask(py, &merged.conflicts.to_grid())?.unbind(),
             map: Py::new(py, Map::from(merged.map))?,
             compared: merged.compared,
             conflict_count: merged.conflict_count,
@@ -86,13 +86,16 @@ impl Fusion {
 
 fn rule_of(name: &str) -> PyResult<FusionRule> {
     Ok(match name {
-        "log-odds" => FusionRule::LogOddsSum,
+        "keep-walls" => FusionRule::KeepWalls,
+        "log-odds" => FusionRule::LogOdds,
         "max-confidence" => FusionRule::MaxConfidence,
-        "first" => FusionRule::PreferFirst,
-        "last" => FusionRule::Overwrite,
+        "occupied" => FusionRule::Occupied,
+        "first" => FusionRule::First,
+        "last" => FusionRule::Last,
         _ => {
             let text = format!(
-                "no fusion is called {name:?}; there are log-odds, max-confidence, first, last"
+                "no fusion is called {name:?}; there are keep-walls, log-odds, max-confidence, \
+                 occupied, first, last"
             );
             return Err(MapError::new_err(text));
         }

@@ -94,7 +94,7 @@ impl Refinement {
     /// Wall points that were paired at the end.
     #[getter]
     fn correspondences(&self) -> usize {
-        self.found.map_or(0, |found| found.pairs)
+        self.found.map_or(0, |found| found.correspondences)
     }
 
     /// Root mean square distance of the pairs, metres.

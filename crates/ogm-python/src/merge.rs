@@ -111,7 +111,7 @@ pub(crate) fn fuse(
         return Err(MapError::new_err(format!("one pose for each of {maps} maps, not {poses}")));
     }
     let place = |(map, given): (usize, &Bound<'_, PyAny>)| {
-        Ok(Member { map, reference_from_map: pose(given)?, covariance: None })
+        Ok(Member { map, reference_from_map: pose(given)?, covariance: None, bend_m: 0.0 })
     };
     let members = poses.iter().enumerate().map(place).collect::<PyResult<_>>()?;
     let members = Members { members };

@@ -101,7 +101,7 @@ def test_every_method_can_be_named(target, source, folder, truth):
 @pytest.mark.parametrize(
     "options, error, says",
     [
-        ({"method": "best"}, ogm.MapError, "match, rfid1, rfid1b, rfid2, rfid3, carpin, radon"),
+        ({"method": "best"}, ogm.MapError, "match, rfid1, rfid1b, rfid2, rfid3, two-tags, tags-icp, carpin, radon"),
         ({"method": "rfid3"}, ogm.MapError, "needs tags"),
         ({"prior": (0, 0, 0)}, TypeError, "prior_sigma"),
         ({"prior_sigma": (1, 1)}, TypeError, "go together"),

@@ -67,7 +67,7 @@ def test_maps_in_known_poses_are_fused_as_the_transforms_say():
 def test_what_cannot_be_fused_is_an_error(target, source):
     with pytest.raises(ogm.MapError, match="one pose for each of 2 maps, not 1"):
         ogm.fuse([target, source], [(0, 0, 0)])
-    with pytest.raises(ogm.MapError, match="log-odds, max-confidence, first, last"):
+    with pytest.raises(ogm.MapError, match="keep-walls, log-odds, max-confidence, occupied"):
         ogm.fuse([target], [(0, 0, 0)], fusion="max")
     with pytest.raises(ogm.MapError, match="limit"):
         ogm.fuse([target, source], [(0, 0, 0), (9e6, 0, 0)])

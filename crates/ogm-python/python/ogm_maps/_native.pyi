@@ -9,8 +9,20 @@ from numpy.typing import ArrayLike, NDArray
 _Path = Union[str, os.PathLike[str]]
 # (x, y, theta) in metres and radians, or a 3 x 3 matrix.
 _Pose = Union[Transform, tuple[float, float, float], Sequence[float], NDArray[Any]]
-_Method = Literal["auto", "match", "rfid1", "rfid1b", "rfid2", "rfid3", "carpin", "radon"]
-_Fusion = Literal["log-odds", "max-confidence", "first", "last"]
+_Method = Literal[
+    "auto",
+    "match",
+    "rfid1",
+    "rfid1b",
+    "rfid2",
+    "rfid3",
+    "two-tags",
+    "tags-icp",
+    "carpin",
+    "radon",
+    "known",
+]
+_Fusion = Literal["keep-walls", "log-odds", "max-confidence", "occupied", "first", "last"]
 _Progress = Callable[[float], object]
 _Tags = Sequence[Union[None, _Path, Sequence[Tag]]]
 

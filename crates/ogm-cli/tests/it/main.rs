@@ -9,6 +9,7 @@ mod files;
 mod interrupt;
 mod merge;
 mod pictures;
+mod team;
 mod untagged;
 
 use std::path::{Path, PathBuf};

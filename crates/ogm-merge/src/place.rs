@@ -26,9 +26,9 @@ pub(crate) fn agreeing(
     target_from_source: &Se2,
     centre: Point2<f64>,
 ) -> Option<usize> {
-    let apart = |found: &Se2| {
-        let turn = wrap_angle(found.theta() - target_from_source.theta()).abs();
-        let apart = (*found * centre - *target_from_source * centre).norm();
+    let apart = |found_target_from_source: &Se2| {
+        let turn = wrap_angle(found_target_from_source.theta() - target_from_source.theta()).abs();
+        let apart = (*found_target_from_source * centre - *target_from_source * centre).norm();
         (turn <= AGREES.1 && apart <= AGREES.0).then_some(apart)
     };
     let proposals = pair.proposals.iter().enumerate();

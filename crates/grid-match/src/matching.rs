@@ -120,7 +120,8 @@ fn search(
     let polished = Stage::new(progress, SEARCHED, 1.0);
     let polished = Steps::new(&polished, found.len());
     let best = found.first().map_or(0.0, |fit| fit.score);
-    let contains = |pose: &Se2| bounds.is_none_or(|bounds| bounds.contains(pose));
+    let contains =
+        |first_from_second: &Se2| bounds.is_none_or(|bounds| bounds.contains(first_from_second));
     let found = each(
         &found,
         || (),

@@ -82,10 +82,10 @@ pub(crate) struct MergeArgs {
     /// the frame of the merged map, which is that of the first map unless that one is named too.
     /// Nothing is searched
     #[arg(long = "transform", id = "transform", value_name = "MAP.yaml=X,Y,DEG")]
-    #[arg(conflicts_with_all = ["method", "tags", "prior", "accept", "repeats"])]
+    #[arg(conflicts_with_all = ["method", "tags", "prior", "accept", "repeats", "reference"])]
     pub(crate) transforms: Vec<String>,
     /// What a cell becomes that several maps know
-    /// Of more than two maps, that whose frame is kept [default: the first]
+    /// The map whose frame is kept [default: the first]
     #[arg(long, value_name = "MAP.yaml")]
     pub(crate) reference: Option<PathBuf>,
     /// What a cell becomes that both maps know

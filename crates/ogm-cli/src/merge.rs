@@ -29,7 +29,8 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let known = transforms_of(&names, &args.transforms)?;
     let reference = team::reference(args, &maps)?;
     let logs = logs_of(&names, &args.search.tags)?;
-    if known.is_none() && maps.len() > 2 {
+    let is_team = maps.len() > 2 || reference > 0;
+    if known.is_none() && is_team {
         team::check(args)?;
     }
     check(&args.search, &logs)?;
@@ -45,7 +46,9 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let placing = match &known {
         Some(poses) => Placing::known(&inputs, poses, &args.search, &part)?,
         None => match &inputs[..] {
-            [target, source] => Placing::searched([target, source], &logs, &args.search, &part)?,
+            [target, source] if !is_team => {
+                Placing::searched([target, source], &logs, &args.search, &part)?
+            }
             _ => Placing::team(&inputs, &logs, reference, &args.search, &part)?,
         },
     };

@@ -118,7 +118,6 @@ fn poses_that_cannot_be_meant_are_usage_errors() {
     let folder = rooms();
     let merge = "merge {T}/a.yaml {T}/b.yaml {T}/c.yaml -o {T}/m.yaml";
     for (given, complaint) in [
-        ("", "a search takes two maps, not 3"),
         ("--transform {T}/b.yaml=1,0,0", "c.yaml"),
         ("--transform {T}/d.yaml=1,0,0", "names none of the maps"),
         ("--transform {T}/b.yaml=1,0", "X,Y,DEG"),

@@ -14,6 +14,7 @@ mod mutants;
 mod outputs;
 mod page;
 mod pictures;
+mod team;
 mod untagged;
 mod writers;
 

@@ -1,19 +1,30 @@
 //! The front door for a team: any number of maps in, one report out.
 
+mod join;
+mod link;
+mod pairs;
+mod parallel;
+mod params;
+mod part;
+mod place;
+mod report;
+
 use std::cmp::Reverse;
 
 use nalgebra::Matrix3;
 use ogm_core::{Outcome, Progress, Refusal, Se2, Stage};
 
-use crate::join::join;
-use crate::link::Evidences;
 use crate::merge::{Component, Member};
-use crate::part::Part;
-use crate::place::{Place, agreeing, placed};
-use crate::team_pairs::{given, matched, prepared};
-use crate::team_params::TeamParams;
-use crate::team_report::{TeamPair, TeamReport};
 use crate::{MergeError, RobotMap};
+
+use self::join::join;
+use self::link::Evidences;
+use self::pairs::{given, matched, prepared};
+use self::part::Part;
+use self::place::{Place, agreeing, placed};
+
+pub use self::params::{KnownPose, TeamParams};
+pub use self::report::{Join, TeamPair, TeamReport};
 
 /// Shares of the work after which the maps are prepared, the pairs matched, and all is joined.
 const PREPARED: f64 = 0.05;

@@ -5,12 +5,12 @@ use std::collections::BTreeMap;
 
 use ogm_core::{ClassThresholds, Progress};
 
+use super::link::{Evidences, Link};
+use super::parallel::map_in_order;
+use super::part::Part;
+use super::place::placed;
+use super::report::Join;
 use crate::MergeError;
-use crate::link::{Evidences, Link};
-use crate::parallel::map_in_order;
-use crate::part::Part;
-use crate::place::placed;
-use crate::team_report::Join;
 
 /// Joins `parts` as far as the evidence goes.
 ///

@@ -5,8 +5,8 @@ use nalgebra::{Matrix3, Point2};
 use ogm_core::{RelativePose, Se2, wrap_angle};
 use pose_graph2d::{Edge, PoseGraph, SolveParams, solve};
 
+use super::pairs::Matched;
 use crate::MergeError;
-use crate::team_pairs::Matched;
 
 /// A pair agrees with how its maps were joined within this, metres at the middle of the source and
 /// radians: more than the drift of some maps in a row, and what makes another answer.
@@ -28,9 +28,9 @@ pub(crate) fn agreeing(
     target_from_source: &Se2,
     centre: Point2<f64>,
 ) -> Option<usize> {
-    let apart = |found: &Se2| {
-        let turn = wrap_angle(found.theta() - target_from_source.theta()).abs();
-        let apart = (*found * centre - *target_from_source * centre).norm();
+    let apart = |found_target_from_source: &Se2| {
+        let turn = wrap_angle(found_target_from_source.theta() - target_from_source.theta()).abs();
+        let apart = (*found_target_from_source * centre - *target_from_source * centre).norm();
         (turn <= AGREES.1 && apart <= AGREES.0).then_some(apart)
     };
     let proposals = pair.proposals.iter().enumerate();

@@ -6,8 +6,8 @@ use grid_match::{MatchParams, PreparedMap, Prior, match_prepared};
 use nalgebra::Matrix3;
 use ogm_core::{Progress, RelativePose, Se2, Stage, Steps};
 
-use crate::parallel::map_in_order;
-use crate::team_params::{KnownPose, TeamParams};
+use super::parallel::map_in_order;
+use super::params::{KnownPose, TeamParams};
 use crate::{MergeError, Method, PairReport, RobotMap, align_pair};
 
 /// Standard deviations of a pose by a method that says nothing about them, metres and radians.

@@ -4,9 +4,9 @@ use grid_match::{Evidence, PreparedMap, pose_probabilities, refine_pose, score_p
 use nalgebra::Point2;
 use ogm_core::{RelativePose, Se2, log_odds, probability_from_log_odds, wrap_angle};
 
+use super::pairs::Matched;
+use super::part::Part;
 use crate::MergeError;
-use crate::part::Part;
-use crate::team_pairs::Matched;
 
 /// Poses further apart than this at the centre of the second group are different answers, metres
 /// and radians.
@@ -188,9 +188,10 @@ fn distinct(poses: Vec<(f64, Se2, f64)>, centre: Point2<f64>) -> Vec<(f64, Se2, 
 }
 
 /// Whether two poses are two answers.
-fn is_apart(a: &Se2, b: &Se2, centre: Point2<f64>) -> bool {
-    let turn = wrap_angle(a.theta() - b.theta()).abs();
-    turn > APART.1 || (*a * centre - *b * centre).norm() > APART.0
+fn is_apart(a_from_second: &Se2, b_from_second: &Se2, centre: Point2<f64>) -> bool {
+    let turn = wrap_angle(a_from_second.theta() - b_from_second.theta()).abs();
+    let [a, b] = [a_from_second, b_from_second].map(|pose| *pose * centre);
+    turn > APART.1 || (a - b).norm() > APART.0
 }
 
 fn contradicts(evidence: &Evidence) -> bool {

@@ -29,7 +29,7 @@ pub(crate) enum Command {
     /// Finds the transform between two maps
     Align(AlignArgs),
     /// Makes one map of several
-    Merge(MergeArgs),
+    Merge(Box<MergeArgs>),
     /// Says what a map file holds, and what is wrong with it
     Info(InfoArgs),
     /// Writes a map as it looks in another frame

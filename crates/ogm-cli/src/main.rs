@@ -25,6 +25,7 @@ mod search;
 mod straighten;
 mod tags;
 mod team;
+mod team_answer;
 mod terminal;
 mod text;
 mod usage;

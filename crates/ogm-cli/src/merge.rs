@@ -18,7 +18,7 @@ use crate::placing::Placing;
 use crate::progress::Bar;
 use crate::search::check;
 use crate::tags::logs_of;
-use crate::team::TeamAnswer;
+use crate::team_answer::TeamAnswer;
 use crate::usage::UsageError;
 use crate::{drawn, html, output, team, terminal, text};
 

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use crate::answer::PairAnswer;
 use crate::input::MapFile;
-use crate::team::TeamAnswer;
+use crate::team_answer::TeamAnswer;
 
 /// The most places of conflict that a report lists; the largest.
 const LISTED: usize = 100;

@@ -46,7 +46,7 @@ fn a_folder_stands_for_its_maps_and_for_nothing_else_in_it() {
     fs::write(folder.path().join("params.yaml"), "amcl:\n  image_topic: none\n").unwrap();
     let report = json(0, folder.path(), "merge {T} -o {T}/out.yaml --json");
     assert_eq!(report["maps"].as_array().unwrap().len(), 3);
-    assert_eq!(report["copies"].as_array().unwrap().len(), 2, "equal files");
+    assert_eq!(report["team"]["copies"].as_array().unwrap().len(), 2, "equal files");
 }
 
 #[test]

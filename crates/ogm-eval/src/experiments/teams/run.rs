@@ -29,7 +29,7 @@ pub(super) fn run(options: &Options) -> anyhow::Result<Vec<Judged>> {
         .par_iter()
         .map(|&(kind, seed)| {
             let robots = robots(seed ^ kind as u64, options.quick);
-            let team = labelled_team(kind, robots, seed % 2 == 0, seed);
+            let team = labelled_team(kind, robots, (seed ^ kind as u64).is_multiple_of(2), seed);
             let judged = match team {
                 Ok(team) => judge(kind, seed, &team).map(Some),
                 Err(SimError::NoSuchPair | SimError::BlockedRoute { .. }) => Ok(None),

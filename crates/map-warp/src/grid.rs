@@ -8,9 +8,12 @@ use ogm_core::{
 use crate::error::WarpError;
 use crate::warp::Warp;
 
-/// Cells between the places whose origin is computed; between them it is interpolated. A bend has
-/// metres to it, so that this errs by thousandths of a cell.
-const COARSE: usize = 8;
+/// Most cells between the places whose origin is computed; between them it is interpolated.
+const MOST_COARSE: usize = 8;
+
+/// Those cells over the distance across which the displacement stays alike: interpolation then errs
+/// by less than a tenth of a cell of 5 cm at the bends that drift makes.
+const COARSE_SHARE: f64 = 0.1;
 
 /// A wall that comes out within this many cells of its place is not lost.
 const NEAR_CELLS: f64 = 1.0;
@@ -31,14 +34,17 @@ pub fn warp_grid(
 ) -> Result<OccupancyGrid, WarpError> {
     let (frame, width, height) = extent(map, warp)?;
     let mut cells = Grid::filled(width, height, Occupancy::UNKNOWN)?;
-    let mut below = origins(map, warp, &frame, width, 0);
-    for first in (0..height).step_by(COARSE) {
+    #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+    let coarse = (COARSE_SHARE * warp.correlation_m() / frame.resolution()) as usize;
+    let coarse = coarse.clamp(1, MOST_COARSE);
+    let mut below = origins(map, warp, &frame, width, 0, coarse);
+    for first in (0..height).step_by(coarse) {
         progress.go_on(first as f64 / height as f64)?;
-        let above = origins(map, warp, &frame, width, first + COARSE);
-        for row in first..height.min(first + COARSE) {
-            let up = (row - first) as f64 / COARSE as f64;
+        let above = origins(map, warp, &frame, width, first + coarse, coarse);
+        for row in first..height.min(first + coarse) {
+            let up = (row - first) as f64 / coarse as f64;
             for column in 0..width {
-                let (left, right) = (column / COARSE, (column % COARSE) as f64 / COARSE as f64);
+                let (left, right) = (column / coarse, (column % coarse) as f64 / coarse as f64);
                 let low = below[left].lerp(&below[left + 1], right);
                 let high = above[left].lerp(&above[left + 1], right);
                 let cell = index_of(low.lerp(&high, up)).and_then(|at| map.cells().get(at));
@@ -103,17 +109,18 @@ fn extent(map: &OccupancyGrid, warp: &Warp) -> Result<(GridFrame, usize, usize),
     Ok((frame, width, height))
 }
 
-/// Where the centres of every eighth cell of a row of the output come from, in cells of the map.
+/// Where the centres of every `coarse`th cell of a row of the output come from, in cells of the map.
 fn origins(
     map: &OccupancyGrid,
     warp: &Warp,
     frame: &GridFrame,
     width: usize,
     row: usize,
+    coarse: usize,
 ) -> Vec<Vector2<f64>> {
-    (0..=width.div_ceil(COARSE))
+    (0..=width.div_ceil(coarse))
         .map(|step| {
-            let place = frame.cell_centre(CellIndex { column: step * COARSE, row });
+            let place = frame.cell_centre(CellIndex { column: step * coarse, row });
             map.frame().cells_from_point(warp.inverse(place)).coords
         })
         .collect()

@@ -202,6 +202,10 @@ impl Warp {
         self.stiffened
     }
 
+    pub(crate) fn correlation_m(&self) -> f64 {
+        self.kernel.length_m
+    }
+
     fn gradient(&self, place: Point2<f64>) -> Matrix2<f64> {
         self.centres.iter().map(|&(at, by)| self.kernel.pull_gradient(place, at, by)).sum()
     }

@@ -106,6 +106,30 @@ fn no_motions_give_the_same_map() {
 }
 
 #[test]
+fn cells_as_coarse_as_the_bend_still_look_up_their_own_place() {
+    let motions = [(20.0, 1.0), (26.0, -1.0), (32.0, 1.0)].map(|(x, shift)| Motion {
+        at: Point2::new(x, 20.0),
+        shift: Vector2::new(0.0, shift),
+        turn: 0.0,
+        covariance: Matrix3::from_diagonal(&Vector3::new(1e-4, 1e-4, 1.0)),
+    });
+    let params = WarpParams { drift_sigma_m: 1.0, correlation_m: 3.0, outlier_sigmas: 1e9 };
+    let warp = Warp::fit(&motions, &params).unwrap();
+    let frame = GridFrame::new(1.0, Se2::identity()).unwrap();
+    // Probabilities that differ from cell to cell, none of them a wall.
+    let mut cells = Grid::filled(52, 40, Occupancy::FREE).unwrap();
+    for (at, cell) in cells.cells_mut().iter_mut().enumerate() {
+        *cell = Occupancy::from_byte(u8::try_from(at * 7 % 101).unwrap());
+    }
+    let map = OccupancyGrid::new(frame, cells);
+    let out = through(&map, &warp);
+    for (index, &cell) in out.cells().indexed() {
+        let origin = warp.inverse(out.frame().cell_centre(index));
+        assert_eq!(cell, map.at(origin), "{index:?} from {origin}");
+    }
+}
+
+#[test]
 fn a_grid_is_cancelled_when_progress_says_so() {
     struct Never;
     impl Progress for Never {

@@ -53,7 +53,8 @@ pub(super) fn criteria(runs: &[Run], quick: bool) -> Vec<Criterion> {
     let case = case_name(Building::Random, 10.0);
     let unguarded = ["#1 unguarded", "#2 unguarded", "#3 unguarded"];
     let summaries = unguarded.map(|variant| Cell::new(runs, &case, variant).summary());
-    if let [Some(first), Some(second), Some(third)] = summaries {
+    // A dozen worlds say nothing about means that a few of them make.
+    if let ([Some(first), Some(second), Some(third)], false) = (summaries, quick) {
         criteria.push(Criterion {
             id: "X4 + 10 px: ordering".to_owned(),
             statement: format!(

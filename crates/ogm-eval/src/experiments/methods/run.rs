@@ -8,7 +8,7 @@ use ogm_merge::{RobotMap, align_by_tags};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
 use super::record::{MATCH, NEGATIVES, REGIMES, case_name, case_without_tags};
-use super::variants::{METHODS, VARIANTS};
+use super::variants::{METHODS, ON_ALL_WORLDS, VARIANTS};
 use crate::cases::worlds::{Building, World};
 use crate::judge::{Overlap, TransformError};
 use crate::measured::{Run, RunResult, Timing};
@@ -81,7 +81,7 @@ fn run_world(
     let overlap =
         Overlap::new(&world.pair.target.map, &world.pair.source.map, world.target_from_source());
     let errors = Some(|target_from_source: &Se2| overlap.errors(target_from_source));
-    let variants = if all_variants { &VARIANTS[..] } else { &VARIANTS[..METHODS] };
+    let variants = if all_variants { &VARIANTS[..] } else { &VARIANTS[..ON_ALL_WORLDS] };
     let (mut runs, mut timings) = (Vec::new(), Vec::new());
     for sigma_px in REGIMES {
         let [target_tags, source_tags] = world.displaced_tags(sigma_px);

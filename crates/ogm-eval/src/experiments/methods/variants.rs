@@ -19,6 +19,10 @@ pub(super) struct Variant {
 /// How many of the variants, from the front, are methods as the command has them.
 pub(super) const METHODS: usize = 6;
 
+/// How many, from the front, run on every world: the methods, and what #1, #2 and #3 would have
+/// answered unguarded.
+pub(super) const ON_ALL_WORLDS: usize = METHODS + 3;
+
 /// The methods first.
 pub(super) const VARIANTS: [Variant; 23] = [
     Variant { name: "#1", method: TagMethod::Rfid1, params: |_| RfidParams::default() },

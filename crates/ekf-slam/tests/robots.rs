@@ -1,5 +1,7 @@
 //! Robots of known truth: what the filter says of them, and how sure it is.
 
+#![expect(clippy::unwrap_used, reason = "a panic is how a test fails")]
+
 use ekf_slam::{Ekf, EkfError, EkfParams, Reading, Verdict};
 use nalgebra::{Matrix3, Vector3};
 use ogm_core::{RelativePose, Se2, wrap_angle};

@@ -97,6 +97,7 @@ fn given_poses_are_kept_and_searched_for_by_nobody() {
     assert!(off.translation().norm() < 1e-9 && off.theta().abs() < 1e-9);
     let pair = report.pairs.iter().find(|pair| (pair.target, pair.source) == (0, 4)).unwrap();
     assert!(pair.report.is_none() && pair.target_from_source.is_some());
+    assert_eq!(report.probability(0, 4), Some(1.0), "nobody doubts what is given");
 }
 
 #[test]

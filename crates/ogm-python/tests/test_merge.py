@@ -58,7 +58,7 @@ def test_maps_in_known_poses_are_fused_as_the_transforms_say():
     assert (room.compared_cells, room.conflict_cells) == (3, 0)
     assert room.members == [0, 1]
     shut = ogm.Map.from_array(100 - right.array, 0.5)
-    clash = ogm.fuse([left, shut], [(0, 0, 0), (1.0, 0.0, 0.0)])
+    clash = ogm.fuse([left, shut], [(0, 0, 0), (1.0, 0.0, 0.0)], fusion="log-odds")
     assert clash.conflict_cells == clash.conflicts.sum() == 3
     coarse = ogm.fuse([left], [(0, 0, 0)], resolution=1.5)
     assert coarse.map.resolution == 1.5 and coarse.map.shape == (1, 1)

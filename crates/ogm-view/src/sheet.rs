@@ -39,10 +39,20 @@ fn letter(place: usize) -> String {
     char::from(b'A' + u8::try_from(place % 26).unwrap_or(0)).to_string()
 }
 
+/// The end of a name, at most `letters` of it: paths differ there.
+fn tail(name: &str, letters: usize) -> String {
+    let count = name.chars().count();
+    if count <= letters {
+        return name.to_owned();
+    }
+    let kept = letters.saturating_sub(3);
+    "...".chars().chain(name.chars().skip(count - kept)).collect()
+}
+
 /// [`overlay_all`](crate::overlay_all()) with what a reader needs: whose wall is which, by name, a
 /// scale bar, and the axes of the map frames, A, B and so on, where they lie inside.
 ///
-/// Letters outside ASCII are left blank, and names are cut where the picture ends.
+/// Letters outside ASCII are left blank, and of names that are too long the end is shown.
 ///
 /// # Errors
 /// Those of [`overlay_all`](crate::overlay_all()).
@@ -73,8 +83,10 @@ pub fn overlay_sheet(maps: &[Named<'_>]) -> Result<RgbImage, ViewError> {
     }
 
     let top = picture.height() + MARGIN;
+    let letters = usize::try_from(width.saturating_sub(2 * MARGIN) / LETTER).unwrap_or(0);
     let named = |(place, map): (usize, &Named<'_>)| {
-        (wall_colour(place), format!("{} {}", letter(place), map.name))
+        let name = tail(map.name, letters.saturating_sub(4));
+        (wall_colour(place), format!("{} {name}", letter(place)))
     };
     let mut legend: Vec<_> = maps.iter().enumerate().map(named).collect();
     legend.push((COMMON_WALL, "walls of several".to_owned()));
@@ -145,7 +157,7 @@ fn write(image: &mut RgbImage, [left, top]: [u32; 2], text: &str, colour: Rgb<u8
 
 #[cfg(test)]
 mod tests {
-    use super::{Named, X_AXIS, Y_AXIS, overlay_sheet, scale, whole};
+    use super::{Named, X_AXIS, Y_AXIS, overlay_sheet, scale, tail, whole};
     use crate::overlay::overlay;
     use ogm_core::{GridFrame, OccupancyGrid, Se2};
 
@@ -175,6 +187,13 @@ mod tests {
             assert_eq!(pixel(x + 1.0, y), X_AXIS);
             assert_eq!(pixel(x, y + 1.0), Y_AXIS);
         }
+    }
+
+    #[test]
+    fn of_a_long_name_the_end_is_shown() {
+        assert_eq!(tail("maps/a.yaml", 11), "maps/a.yaml");
+        assert_eq!(tail("a/long/way/to/map.yaml", 11), "...map.yaml");
+        assert_eq!(tail("räume/grundriss.yaml", 9), "...s.yaml");
     }
 
     #[test]

@@ -44,7 +44,11 @@ impl TeamReport {
             has(a) == [true, false] && has(b) == [false, true]
                 || has(a) == [false, true] && has(b) == [true, false]
         };
-        self.joins.iter().find(joined).map(|join| join.probability)
+        let together =
+            |component: &Component| [a, b].iter().all(|&map| component.pose(map).is_some());
+        // Maps that no join brought together were given so.
+        let given = || self.components.iter().any(together).then_some(1.0);
+        self.joins.iter().find(joined).map(|join| join.probability).or_else(given)
     }
 }
 

@@ -64,10 +64,9 @@ def test_walls_turn_with_the_map():
     straight, turned = ogm.wall_segments(room()), ogm.wall_segments(room(turn=0.3))
     assert straight and len(straight) == len(turned) >= 3
     assert max(wall.length for wall in straight) == pytest.approx(99 * 0.05, abs=0.1)
-    for wall in turned:
-        off = (wall.direction - 0.3) % (math.pi / 2)
-        # A cell at one end of it.
-        assert min(off, math.pi / 2 - off) < max(0.01, min(0.05 / wall.length, 0.06))
+    for before, wall in zip(straight, turned):
+        off = (wall.direction - before.direction - 0.3) % math.pi
+        assert min(off, math.pi - off) < 1e-6
         dx, dy = np.subtract(wall.end, wall.start)
         assert math.hypot(dx, dy) == pytest.approx(wall.length)
         assert 0.6 <= wall.reliability <= 1.0 and wall.support > 10

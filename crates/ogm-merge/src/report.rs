@@ -88,6 +88,9 @@ pub struct Hypothesis {
     pub score: f64,
     /// Covariance of (x, y, θ) in target axes, m², m·rad, rad²; `None` for a method without one.
     pub covariance: Option<Matrix3<f64>>,
+    /// How far parts of the maps lie from where this puts them, root mean square, metres; `None`
+    /// for a method that does not look.
+    pub bend_m: Option<f64>,
 }
 
 impl From<&grid_match::Hypothesis> for Hypothesis {
@@ -97,6 +100,7 @@ impl From<&grid_match::Hypothesis> for Hypothesis {
             probability: Some(found.pose.probability),
             score: found.score,
             covariance: Some(found.pose.covariance),
+            bend_m: Some(found.bend.rms_m),
         }
     }
 }
@@ -114,7 +118,10 @@ impl Hypothesis {
         let source = PreparedMap::new(source, thresholds, progress)?;
         let evidence = score_pose(&target, &source, &target_from_source)?;
         let score = evidence.score();
-        Ok((Self { target_from_source, probability: None, score, covariance: None }, evidence))
+        Ok((
+            Self { target_from_source, probability: None, score, covariance: None, bend_m: None },
+            evidence,
+        ))
     }
 }
 

@@ -2,8 +2,10 @@
 
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
-use ogm_core::{OccupancyGrid, Se2};
-use ogm_merge::{KnownPose, RobotMap, TeamParams, TeamReport, merge_team};
+use ogm_core::{OccupancyGrid, RelativePose, Se2};
+use ogm_merge::{
+    Hypothesis, KnownPose, PairAlignment, RobotMap, TeamParams, TeamReport, merge_team,
+};
 use ogm_sim::{FloorKind, LabelledTeam, labelled_team};
 
 fn merged(maps: &[&OccupancyGrid], params: &TeamParams) -> TeamReport {
@@ -108,4 +110,40 @@ fn no_maps_and_one_map_are_teams_too() {
     assert!(report.is_whole() && report.components[0].members.len() == 1);
     let params = TeamParams { reference: 7, ..TeamParams::default() };
     assert!(merge_team(&[RobotMap::from(&team.maps[0])], &params, &()).is_err());
+}
+
+#[test]
+fn pairs_that_were_searched_elsewhere_give_the_same_team() {
+    let team = team();
+    let maps: Vec<&OccupancyGrid> = team.maps.iter().collect();
+    let here = merged(&maps, &TeamParams::default());
+    let alignments = here.pairs.iter().enumerate().map(|(index, pair)| {
+        let hypotheses = pair.report.as_ref().unwrap().hypotheses.clone();
+        if index % 2 == 0 {
+            return PairAlignment { target: pair.target, source: pair.source, hypotheses };
+        }
+        // Searched the other way round.
+        let turned = hypotheses.into_iter().map(|found| {
+            let pose = RelativePose {
+                target_from_source: found.target_from_source,
+                covariance: found.covariance.unwrap(),
+                probability: found.probability.unwrap(),
+            };
+            let pose = pose.inverse();
+            let covariance = Some(pose.covariance);
+            Hypothesis { target_from_source: pose.target_from_source, covariance, ..found }
+        });
+        PairAlignment { target: pair.source, source: pair.target, hypotheses: turned.collect() }
+    });
+    let params = TeamParams { alignments: alignments.collect(), ..TeamParams::default() };
+    let elsewhere = merged(&maps, &params);
+    assert!(elsewhere.pairs.iter().all(|pair| pair.report.is_none()), "nothing is searched again");
+    assert_same(&poses(&here, maps.len()), &poses(&elsewhere, maps.len()), 1e-6);
+
+    let mut wrong = params.clone();
+    wrong.alignments[0].source = 17;
+    let robots: Vec<RobotMap<'_>> = maps.iter().map(|&map| RobotMap::from(map)).collect();
+    assert!(merge_team(&robots, &wrong, &()).is_err());
+    wrong.alignments[0].source = wrong.alignments[0].target;
+    assert!(merge_team(&robots, &wrong, &()).is_err());
 }

@@ -55,6 +55,7 @@ struct HypothesisJson {
     probability: Option<f64>,
     score: f64,
     covariance: Option<[[f64; 3]; 3]>,
+    bend_rms_m: Option<f64>,
 }
 
 impl Serialize for Hypothesis {
@@ -64,6 +65,7 @@ impl Serialize for Hypothesis {
             probability: self.probability,
             score: self.score,
             covariance: self.covariance.as_ref().map(rows),
+            bend_rms_m: self.bend_m,
         };
         hypothesis.serialize(serializer)
     }

@@ -203,7 +203,7 @@ impl Arranging<'_> {
         searched: &[(usize, usize)],
         touched: &[usize],
     ) -> Result<bool, MergeError> {
-        for pair in self.pairs.iter().filter(|p| searched.contains(&(p.target, p.source))) {
+        for pair in self.pairs.iter().filter(|p| searched.contains(&p.maps())) {
             let stand = groups.iter().find_map(|group| {
                 let [target, source] = [pair.target, pair.source].map(|map| group.of(map));
                 Some(target?.group_from_map.between(&source?.group_from_map))

@@ -21,7 +21,7 @@ pub(crate) struct Pairs {
 
 impl Pairs {
     fn place(&self, target: usize, source: usize) -> Result<usize, usize> {
-        self.found.binary_search_by_key(&(target, source), |pair| (pair.target, pair.source))
+        self.found.binary_search_by_key(&(target, source), Matched::maps)
     }
 
     /// When a pair was searched.
@@ -30,7 +30,7 @@ impl Pairs {
     }
 
     pub(crate) fn all(&self) -> Vec<(usize, usize)> {
-        self.found.iter().map(|pair| (pair.target, pair.source)).collect()
+        self.found.iter().map(Matched::maps).collect()
     }
 
     pub(crate) fn put(&mut self, pair: Matched, at: [Progressed; 2]) {

@@ -41,6 +41,7 @@ pub(crate) struct Link {
 /// What links are made of.
 pub(crate) struct Evidences<'a> {
     pub(crate) prepared: &'a [PreparedMap],
+    /// In the order of their targets, then of their sources; target before source.
     pub(crate) pairs: &'a [Matched],
     pub(crate) repeats: bool,
 }
@@ -94,7 +95,7 @@ impl Evidences<'_> {
     fn agreement(&self, first: &Part, second: &Part, first_from_second: &Se2) -> f64 {
         let centre = second.centre(self.prepared);
         let mut odds = Vec::new();
-        for pair in self.pairs {
+        for pair in self.across(first, second) {
             let best = pair.proposals.first();
             let Some(best) = best else { continue };
             let Some(proposed) = first_from_second_by(first, second, pair, &best.pose) else {
@@ -133,11 +134,24 @@ impl Evidences<'_> {
         Ok(false)
     }
 
+    /// The pairs of a map of one group and a map of the other.
+    fn across(&self, first: &Part, second: &Part) -> impl Iterator<Item = &Matched> {
+        let mut places = Vec::new();
+        for (a, _) in &first.members {
+            for (b, _) in &second.members {
+                let maps = (*a.min(b), *a.max(b));
+                places.extend(self.pairs.binary_search_by_key(&maps, Matched::maps));
+            }
+        }
+        places.sort_unstable();
+        places.into_iter().map(|place| &self.pairs[place])
+    }
+
     /// Distinct poses that pairs across the groups propose, best first: score, pose, probability by
     /// the pair alone.
     fn poses(&self, first: &Part, second: &Part) -> Vec<(f64, Se2, f64)> {
         let mut proposed = Vec::new();
-        for pair in self.pairs {
+        for pair in self.across(first, second) {
             for proposal in pair.proposals.iter().filter(|found| found.score > LEAST_SCORE) {
                 let Some(first_from_second) =
                     first_from_second_by(first, second, pair, &proposal.pose)

@@ -24,7 +24,7 @@ pub(crate) use self::part::Part;
 pub(crate) use self::place::{Place, agreeing, placed};
 pub(crate) use self::report::probability_between;
 
-pub use self::params::{KnownPose, TeamParams};
+pub use self::params::{KnownPose, PairAlignment, TeamParams};
 pub use self::report::{Join, TeamPair, TeamReport};
 
 /// Shares of the work after which the maps are prepared, the pairs matched, and all is joined.
@@ -59,10 +59,20 @@ pub fn merge_team(
         .flat_map(|(index, &a)| originals[index + 1..].iter().map(move |&b| (a, b)))
         .collect();
     let known = |map: usize| params.known(map);
+    let mut aligned: Vec<Matched> = params.alignments.iter().map(Matched::elsewhere).collect();
+    aligned.sort_by_key(Matched::maps);
+    aligned.dedup_by_key(|pair| pair.maps());
     let is_open = |&(a, b): &(usize, usize)| given(known(a), known(b)).is_none();
-    let open: Vec<_> = all.iter().copied().filter(is_open).collect();
+    aligned.retain(|pair| all.binary_search(&pair.maps()).is_ok() && is_open(&pair.maps()));
+    let is_aligned =
+        |maps: &(usize, usize)| aligned.binary_search_by_key(maps, Matched::maps).is_ok();
+    let open = all.iter().copied().filter(|maps| is_open(maps) && !is_aligned(maps));
+    let open: Vec<_> = open.collect();
     let matching = Stage::new(progress, PREPARED, MATCHED);
-    let found = matched(maps, &prepared, &open, &params.align, &known, &matching)?;
+    let searched = matched(maps, &prepared, &open, &params.align, &known, &matching)?;
+    let searched = searched.into_iter().map(|(pair, report)| (pair, Some(report)));
+    let mut found: Vec<_> = aligned.into_iter().map(|pair| (pair, None)).chain(searched).collect();
+    found.sort_by_key(|(pair, _)| pair.maps());
     let (pairs, reports): (Vec<_>, Vec<_>) = found.into_iter().unzip();
 
     let matching = &params.align.matching;
@@ -96,13 +106,13 @@ pub fn merge_team(
         let target_from_source = components
             .iter()
             .find_map(|component| Some(component.pose(target)?.between(&component.pose(source)?)));
-        let found = matched.next_if(|(pair, _)| (pair.target, pair.source) == (target, source));
+        let found = matched.next_if(|(pair, _)| pair.maps() == (target, source));
         let centre = prepared[source].centre();
         let hypothesis = found
             .as_ref()
             .zip(target_from_source)
             .and_then(|((pair, _), pose)| agreeing(pair, &pose, centre));
-        let report = found.map(|(_, report)| report);
+        let report = found.and_then(|(_, report)| report);
         TeamPair { target, source, report, target_from_source, hypothesis }
     });
     let pairs = pairs.collect();

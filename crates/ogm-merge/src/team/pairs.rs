@@ -7,8 +7,8 @@ use nalgebra::Matrix3;
 use ogm_core::{ClassThresholds, Progress, RelativePose, Se2, Stage, Steps};
 
 use super::parallel::map_in_order;
-use super::params::KnownPose;
-use crate::{AlignParams, MergeError, Method, PairReport, RobotMap, align_pair};
+use super::params::{KnownPose, PairAlignment};
+use crate::{AlignParams, Hypothesis, MergeError, Method, PairReport, RobotMap, align_pair};
 
 /// Standard deviations of a pose by a method that says nothing about them, metres and radians.
 const UNSTATED: [f64; 2] = [0.1, 0.02];
@@ -33,14 +33,32 @@ pub(crate) struct Matched {
 }
 
 impl Matched {
-    pub(crate) fn new(target: usize, source: usize, report: &PairReport) -> Self {
-        let bends = report.stages.matching.as_ref().map(|found| &found.hypotheses[..]);
-        let bend_m = |index: usize| {
-            bends.and_then(|bends| bends.get(index)).map_or(0.0, |found| found.bend.rms_m)
-        };
-        let accepted = report.outcome.clone().found();
-        let propose = |(index, found): (usize, &crate::Hypothesis)| {
-            let by_tags = if accepted.is_some() && index == 0 { BY_TAGS } else { 0.5 };
+    /// Target and source.
+    pub(crate) fn maps(&self) -> (usize, usize) {
+        (self.target, self.source)
+    }
+
+    fn new(target: usize, source: usize, report: &PairReport) -> Self {
+        let is_accepted = report.outcome.clone().found().is_some();
+        Self::of(target, source, &report.hypotheses, is_accepted)
+    }
+
+    /// What a search found that was done elsewhere, seen from the earlier of the two maps.
+    pub(crate) fn elsewhere(alignment: &PairAlignment) -> Self {
+        let (target, source) = (alignment.target, alignment.source);
+        let mut pair = Self::of(target, source, &alignment.hypotheses, false);
+        if target > source {
+            (pair.target, pair.source) = (source, target);
+            for proposal in &mut pair.proposals {
+                proposal.pose = proposal.pose.inverse();
+            }
+        }
+        pair
+    }
+
+    fn of(target: usize, source: usize, hypotheses: &[Hypothesis], is_accepted: bool) -> Self {
+        let propose = |(index, found): (usize, &Hypothesis)| {
+            let by_tags = if is_accepted && index == 0 { BY_TAGS } else { 0.5 };
             let unstated = || {
                 let [metres, radians] = UNSTATED.map(|sigma: f64| sigma.powi(2));
                 Matrix3::from_diagonal(&nalgebra::Vector3::new(metres, metres, radians))
@@ -52,10 +70,10 @@ impl Matched {
                     probability: found.probability.unwrap_or(by_tags),
                 },
                 score: found.score,
-                bend_m: bend_m(index),
+                bend_m: found.bend_m.unwrap_or(0.0),
             }
         };
-        let proposals = report.hypotheses.iter().enumerate().map(propose).collect();
+        let proposals = hypotheses.iter().enumerate().map(propose).collect();
         Self { target, source, proposals }
     }
 }

@@ -64,7 +64,8 @@ pub struct TeamPair {
     pub target: usize,
     /// Which map is the source.
     pub source: usize,
-    /// What the two maps say by themselves; `None` where both poses were given.
+    /// What the two maps say by themselves; `None` where both poses were given, or the pair was
+    /// searched elsewhere.
     pub report: Option<PairReport>,
     /// Where the team puts the source in the target; `None` if they do not hang together.
     pub target_from_source: Option<Se2>,

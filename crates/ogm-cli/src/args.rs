@@ -78,17 +78,18 @@ pub(crate) struct MergeArgs {
     /// conflicts, poses, verdicts
     #[arg(long, value_name = "REPORT.html")]
     pub(crate) html: Option<PathBuf>,
-    /// A pose that is known, for every map but the first, repeatable: maps points of that map into
-    /// the frame of the merged map, which is that of the first map unless that one is named too.
-    /// Nothing is searched
+    /// A pose that is known, repeatable: maps points of that map into the frame of the merged map.
+    /// Nothing is searched where every map but the first has one; the others are searched for
     #[arg(long = "transform", id = "transform", value_name = "MAP.yaml=X,Y,DEG")]
-    #[arg(conflicts_with_all = ["method", "tags", "prior", "accept", "repeats", "reference"])]
     pub(crate) transforms: Vec<String>,
-    /// What a cell becomes that several maps know
+    /// A folder of what `ogm align --json` found for pairs of these maps, which are not searched
+    /// again; known by the maps' SHA-256
+    #[arg(long, value_name = "DIR")]
+    pub(crate) alignments: Option<PathBuf>,
     /// The map whose frame is kept [default: the first]
     #[arg(long, value_name = "MAP.yaml")]
     pub(crate) reference: Option<PathBuf>,
-    /// What a cell becomes that both maps know
+    /// What a cell becomes that several maps know
     #[arg(long, value_name = "RULE", value_enum, default_value_t)]
     pub(crate) fusion: Fusion,
     /// Metres a cell of the merged map [default: that of the first map]
@@ -127,10 +128,11 @@ pub(crate) struct SearchArgs {
     /// Standard deviation of a range that the tag reader gives, metres
     #[arg(long, value_name = "M", default_value_t = 0.05, value_parser = metres)]
     pub(crate) tag_sigma: f64,
-    /// A transform that is already believed: maps points of B into A (match and carpin only)
-    #[arg(long = "prior", id = "prior", value_name = "X,Y,DEG", allow_hyphen_values = true)]
-    #[arg(requires = "prior_sigma", value_parser = transform)]
-    pub(crate) prior_target_from_source: Option<Se2>,
+    /// A pose that is already believed: maps points of B, or of the map that is named, into the
+    /// first map; repeatable with names (match and carpin only)
+    #[arg(long = "prior", id = "prior", value_name = "[MAP.yaml=]X,Y,DEG")]
+    #[arg(allow_hyphen_values = true, requires = "prior_sigma")]
+    pub(crate) priors: Vec<String>,
     /// One standard deviation of the prior; the search is bounded at three
     #[arg(long, value_name = "M,DEG", allow_hyphen_values = true, requires = "prior")]
     pub(crate) prior_sigma: Option<Sigma>,

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use ogm_core::OccupancyGrid;
 use ogm_io::{IoError, LoadedMap, ReadOptions, YamlError};
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::progress::Wheel;
@@ -13,7 +13,7 @@ use crate::reading::ReadingArgs;
 use crate::terminal;
 
 /// Which map a report is about.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct MapFile {
     /// The YAML, as it was named.
     pub(crate) file: String,

@@ -3,11 +3,13 @@
 #![expect(clippy::disallowed_methods, reason = "a tool reads files and the clock")]
 
 mod align;
+mod alignments;
 mod answer;
 mod apply;
 mod args;
 mod drawn;
 mod ending;
+mod given;
 mod html;
 mod info;
 mod input;

@@ -9,28 +9,31 @@ use ogm_merge::{Component, FusionParams, Merged, Verdict, fuse};
 use crate::answer::SCHEMA;
 use crate::args::MergeArgs;
 use crate::ending::Ending;
+use crate::given::Given;
 use crate::input::Input;
 use crate::memory::Work;
 use crate::merged::{MergeAnswer, MergedMap};
-use crate::named::transforms_of;
 use crate::output::Staged;
-use crate::placing::Placing;
+use crate::placing::{Placing, Team};
 use crate::progress::Bar;
 use crate::search::check;
 use crate::tags::logs_of;
 use crate::team_answer::TeamAnswer;
 use crate::usage::UsageError;
-use crate::{drawn, html, output, team, terminal, text};
+use crate::{alignments, drawn, html, output, team, terminal, text};
 
 pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let maps = team::maps_in(&args.maps, &args.output)?;
     let names: Vec<&Path> = maps.iter().map(AsRef::as_ref).collect();
     let quiet = args.search.quiet;
-    let known = transforms_of(&names, &args.transforms)?;
     let reference = team::reference(args, &maps)?;
+    let given = Given::new(&names, reference, &args.transforms, &args.search)?;
+    let known = given.all();
     let logs = logs_of(&names, &args.search.tags)?;
-    let is_team = maps.len() > 2 || reference > 0;
-    if known.is_none() && is_team {
+    let is_team = maps.len() > 2 || reference > 0 || given.is_exact() || args.alignments.is_some();
+    if known.is_some() {
+        check_known(args)?;
+    } else if is_team {
         team::check(args)?;
     }
     check(&args.search, &logs)?;
@@ -47,9 +50,15 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
         Some(poses) => Placing::known(&inputs, poses, &args.search, &part)?,
         None => match &inputs[..] {
             [target, source] if !is_team => {
-                Placing::searched([target, source], &logs, &args.search, &part)?
+                Placing::searched([target, source], &logs, &args.search, given.prior(), &part)?
             }
-            _ => Placing::team(&inputs, &logs, reference, &args.search, &part)?,
+            _ => {
+                let folder = args.alignments.as_deref();
+                let alignments =
+                    folder.map_or_else(|| Ok(Vec::new()), |at| alignments::read(at, &inputs))?;
+                let team = Team { reference, poses: given.poses(), alignments };
+                Placing::team(&inputs, &logs, team, &args.search, &part)?
+            }
         },
     };
     let made = made(&inputs, &placing.components, args, &Stage::new(&bar, 0.8, 1.0))?;
@@ -118,6 +127,23 @@ fn pictures_asked(args: &MergeArgs) -> impl Iterator<Item = &Path> {
 fn side_outputs(args: &MergeArgs) -> impl Iterator<Item = &Path> {
     let texts = [&args.report, &args.html].into_iter().flatten().map(AsRef::as_ref);
     texts.chain(pictures_asked(args))
+}
+
+/// Makes sure that nothing is asked for of a search where none is made.
+fn check_known(args: &MergeArgs) -> Result<(), UsageError> {
+    let search = &args.search;
+    let unused = [
+        ("--tags", !search.tags.is_empty()),
+        ("--repeats", search.repeats),
+        ("--alignments", args.alignments.is_some()),
+    ];
+    match unused.iter().find(|(_, is_given)| *is_given) {
+        Some((name, _)) => {
+            let message = format!("{name} has no use: every map has its --transform");
+            Err(UsageError(message))
+        }
+        None => Ok(()),
+    }
 }
 
 /// Makes sure that the outputs are named as what they are.

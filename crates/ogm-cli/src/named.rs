@@ -12,18 +12,15 @@ pub(crate) fn is_same(a: &Path, b: &Path) -> bool {
     a == b || matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b)
 }
 
-/// The known pose of each of `maps`, from the values of `--transform`; the first map is the frame
-/// unless it is named too. `None` where there are none.
-pub(crate) fn transforms_of(
+/// The pose of each of `maps` that the values of an option, `MAP.yaml=X,Y,DEG`, name.
+pub(crate) fn poses_of(
+    option: &str,
     maps: &[&Path],
     arguments: &[String],
-) -> Result<Option<Vec<Se2>>, UsageError> {
-    if arguments.is_empty() {
-        return Ok(None);
-    }
+) -> Result<Vec<Option<Se2>>, UsageError> {
     let mut poses: Vec<Option<Se2>> = vec![None; maps.len()];
     for argument in arguments {
-        let wrong = |what: String| UsageError(format!("--transform {argument}: {what}"));
+        let wrong = |what: String| UsageError(format!("{option} {argument}: {what}"));
         let (name, pose) =
             argument.rsplit_once('=').ok_or_else(|| wrong("write MAP.yaml=X,Y,DEG".to_owned()))?;
         let pose = transform(pose).map_err(wrong)?;
@@ -34,15 +31,7 @@ pub(crate) fn transforms_of(
             return Err(wrong("this map has a pose already".to_owned()));
         }
     }
-    poses[0].get_or_insert_with(Se2::identity);
-    let lacking: Vec<&Path> =
-        maps.iter().zip(&poses).filter(|(_, pose)| pose.is_none()).map(|(map, _)| *map).collect();
-    if !lacking.is_empty() {
-        let lacking = listed(&lacking);
-        let message = format!("--transform MAP.yaml=X,Y,DEG is needed for each of: {lacking}");
-        return Err(UsageError(message));
-    }
-    Ok(Some(poses.into_iter().flatten().collect()))
+    Ok(poses)
 }
 
 fn listed(maps: &[&Path]) -> String {

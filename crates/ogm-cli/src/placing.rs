@@ -5,7 +5,8 @@ use std::time::Instant;
 
 use ogm_core::{Progress, Se2};
 use ogm_merge::{
-    AlignParams, Component, RobotMap, TeamParams, TeamReport, known_poses, merge_team,
+    AlignParams, Component, KnownPose, PairAlignment, Prior, RobotMap, TeamParams, TeamReport,
+    known_poses, merge_team,
 };
 
 use crate::answer::{PairAnswer, SCHEMA};
@@ -25,15 +26,24 @@ pub(crate) struct Placing {
     pub(crate) team: Option<TeamReport>,
 }
 
+/// What is known of a team before the search.
+#[derive(Debug)]
+pub(crate) struct Team {
+    pub(crate) reference: usize,
+    pub(crate) poses: Vec<KnownPose>,
+    pub(crate) alignments: Vec<PairAlignment>,
+}
+
 impl Placing {
     /// By a search between two maps.
     pub(crate) fn searched(
         inputs: [&Input; 2],
         logs: &[Option<PathBuf>],
         args: &SearchArgs,
+        prior: Option<Prior>,
         progress: &dyn Progress,
     ) -> anyhow::Result<Self> {
-        let pair = search(inputs, logs, args, progress)?;
+        let pair = search(inputs, logs, args, prior, progress)?;
         let components = pair.report.components();
         Ok(Self { pairs: vec![pair], of_pairs: vec![[0, 1]], components, team: None })
     }
@@ -66,7 +76,7 @@ impl Placing {
     pub(crate) fn team(
         inputs: &[Input],
         logs: &[Option<PathBuf>],
-        reference: usize,
+        team: Team,
         args: &SearchArgs,
         progress: &dyn Progress,
     ) -> anyhow::Result<Self> {
@@ -74,7 +84,8 @@ impl Placing {
         let tags = tags(logs, args)?;
         let maps = inputs.iter().zip(&tags);
         let maps: Vec<_> = maps.map(|(input, tags)| RobotMap { map: input.map(), tags }).collect();
-        let params = TeamParams { align: params(args), reference, ..TeamParams::default() };
+        let Team { reference, poses, alignments } = team;
+        let params = TeamParams { align: params(args, None), poses, alignments, reference };
         let team = merge_team(&maps, &params, progress)?;
         let elapsed_ms = u64::try_from(start.elapsed().as_millis()).unwrap_or(u64::MAX);
         let found = team.pairs.iter().filter_map(|pair| Some((pair, pair.report.clone()?)));

@@ -20,7 +20,7 @@ pub(crate) fn check(args: &SearchArgs, logs: &[Option<PathBuf>]) -> Result<(), U
         let message = format!("--method {name} needs --tags MAP.yaml=TAGS.csv for both maps");
         return Err(UsageError(message));
     }
-    if !method.takes_prior() && args.prior_target_from_source.is_some() {
+    if !method.takes_prior() && !args.priors.is_empty() {
         let message = format!("--method {name} takes no --prior; use --method match or carpin");
         return Err(UsageError(message));
     }
@@ -32,12 +32,14 @@ pub(crate) fn search(
     inputs: [&Input; 2],
     logs: &[Option<PathBuf>],
     args: &SearchArgs,
+    prior: Option<Prior>,
     progress: &dyn Progress,
 ) -> anyhow::Result<PairAnswer> {
     let start = Instant::now();
     let tags = tags(logs, args)?;
     let robot = |map: usize| RobotMap { map: inputs[map].map(), tags: &tags[map] };
-    let report = align_pair(args.method.into(), &robot(0), &robot(1), &params(args), progress)?;
+    let report =
+        align_pair(args.method.into(), &robot(0), &robot(1), &params(args, prior), progress)?;
     Ok(PairAnswer {
         schema: SCHEMA,
         target: inputs[0].file(),
@@ -60,16 +62,10 @@ pub(crate) fn tags(
 }
 
 /// What the command line says about how pairs are aligned.
-pub(crate) fn params(args: &SearchArgs) -> AlignParams {
+pub(crate) fn params(args: &SearchArgs, prior: Option<Prior>) -> AlignParams {
     AlignParams {
         seed: args.seed,
-        prior: args.prior_target_from_source.zip(args.prior_sigma).map(
-            |(target_from_source, sigma)| Prior {
-                target_from_source,
-                sigma_m: sigma.metres,
-                sigma_rad: sigma.degrees.to_radians(),
-            },
-        ),
+        prior,
         matching: MatchParams {
             accept: args.accept,
             repeats: args.repeats,

@@ -72,9 +72,6 @@ pub(crate) fn check(args: &MergeArgs) -> Result<(), UsageError> {
         let message = format!("--method {} is for two maps; use auto or match", method.name());
         return Err(UsageError(message));
     }
-    if args.search.prior_target_from_source.is_some() {
-        return Err(UsageError("--prior is for two maps".to_owned()));
-    }
     Ok(())
 }
 

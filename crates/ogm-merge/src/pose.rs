@@ -4,7 +4,7 @@ use ogm_core::Se2;
 
 /// A pose or transform in metres and degrees; the form in JSON.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PoseDegrees {
     /// Along x, metres.
     pub x_m: f64,

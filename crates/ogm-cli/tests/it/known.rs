@@ -118,12 +118,13 @@ fn poses_that_cannot_be_meant_are_usage_errors() {
     let folder = rooms();
     let merge = "merge {T}/a.yaml {T}/b.yaml {T}/c.yaml -o {T}/m.yaml";
     for (given, complaint) in [
-        ("--transform {T}/b.yaml=1,0,0", "c.yaml"),
         ("--transform {T}/d.yaml=1,0,0", "names none of the maps"),
         ("--transform {T}/b.yaml=1,0", "X,Y,DEG"),
         ("--transform 1,0,0", "MAP.yaml=X,Y,DEG"),
         ("--transform {T}/b.yaml=1,0,0 --transform {T}/b.yaml=2,0,0", "already"),
-        ("--transform {T}/b.yaml=1,0,0 --prior 1,0,0 --prior-sigma 1,1", "cannot be used with"),
+        ("--transform {T}/b.yaml=1,0,0 --prior 1,0,0 --prior-sigma 1,1", "more than two maps"),
+        ("--transform {T}/b.yaml=1,0,0 --prior {T}/b.yaml=1,0,0 --prior-sigma 1,1", "one of them"),
+        ("--transform {T}/b.yaml=1,0,0 --transform {T}/c.yaml=1,0,0 --repeats", "no use"),
     ] {
         let (_, complained) = ends_with(2, folder.path(), &format!("{merge} {given}"));
         assert!(complained.contains(complaint), "{given}: {complained}");

@@ -2,6 +2,7 @@
 
 use std::fs;
 
+use ogm_core::Se2;
 use tempfile::tempdir;
 
 use crate::{apart, draw, ends_with, json, pose, truth};
@@ -53,8 +54,67 @@ fn a_folder_stands_for_its_maps_and_for_nothing_else_in_it() {
 fn what_a_team_cannot_use_is_a_usage_error() {
     let folder = tempdir().unwrap();
     let maps = "merge {F}/target.yaml {F}/source.yaml {F}/target.yaml -o {T}/out.yaml";
-    for wrong in ["--method radon", "--reference nobody.yaml", "--prior 1,2,3 --prior-sigma 1,1"] {
+    for wrong in [
+        "--method radon",
+        "--reference nobody.yaml",
+        "--prior 1,2,3 --prior-sigma 1,1",
+        "--prior {F}/target.yaml=1,2,3 --prior-sigma 1,1",
+        "--transform {F}/target.yaml=1,2,3",
+        "--alignments {T}",
+    ] {
         let (_, complained) = ends_with(2, folder.path(), &format!("{maps} {wrong}"));
         assert!(complained.contains(wrong.split(' ').next().unwrap()), "{complained}");
     }
+}
+
+#[test]
+fn what_is_known_of_some_maps_holds_and_the_others_are_searched_for() {
+    let folder = tempdir().unwrap();
+    draw(folder.path(), "dot", "#");
+    let maps = "merge {F}/target.yaml {F}/source.yaml {T}/dot.yaml -o {T}/out.yaml --json --force";
+    let given = "--transform {T}/dot.yaml=3,4,90";
+    let found = json(0, folder.path(), &format!("{maps} {given}"));
+    let poses = &found["components"][0]["poses"];
+    assert_eq!(pose(&poses[2]), Se2::new(3.0, 4.0, std::f64::consts::FRAC_PI_2));
+    let error = apart(pose(&poses[1]), truth());
+    assert!(error.0 < 0.1 && error.1 < 1.0, "{error:?}");
+
+    let near = "--prior {F}/source.yaml=-6,-5.5,-20 --prior-sigma 0.5,5";
+    let found = json(0, folder.path(), &format!("{maps} {given} {near}"));
+    let error = apart(pose(&found["components"][0]["poses"][1]), truth());
+    assert!(error.0 < 0.1 && error.1 < 1.0, "{error:?}");
+    let far = "--prior {F}/source.yaml=40,40,90 --prior-sigma 0.1,1";
+    json(3, folder.path(), &format!("{maps} {given} {far}"));
+}
+
+#[test]
+fn pairs_that_were_aligned_elsewhere_are_not_searched_again() {
+    let folder = tempdir().unwrap();
+    ends_with(0, folder.path(), "apply {F}/source.yaml --transform 4,-2,30 -o {T}/moved.yaml");
+    let results = folder.path().join("found");
+    fs::create_dir(&results).unwrap();
+    for (index, pair) in
+        ["{F}/source.yaml {F}/target.yaml", "{T}/moved.yaml {F}/target.yaml"].iter().enumerate()
+    {
+        let found = json(0, folder.path(), &format!("align {pair} --json"));
+        fs::write(results.join(format!("{index}.json")), found.to_string()).unwrap();
+    }
+    let maps =
+        "merge {F}/target.yaml {F}/source.yaml {T}/moved.yaml -o {T}/out.yaml --json --force";
+    let here = json(0, folder.path(), maps);
+    let merged = json(0, folder.path(), &format!("{maps} --alignments {{T}}/found"));
+    assert_eq!(merged["pairs"].as_array().unwrap().len(), 1, "one pair is left to search");
+    for map in [1, 2] {
+        let found = [&here, &merged].map(|report| pose(&report["components"][0]["poses"][map]));
+        let error = apart(found[0], found[1]);
+        assert!(error.0 < 1e-3 && error.1 < 0.01, "{error:?}");
+    }
+
+    ends_with(
+        0,
+        folder.path(),
+        "apply {F}/source.yaml --transform 1,0,0 -o {T}/moved.yaml --force",
+    );
+    let (_, complained) = ends_with(1, folder.path(), &format!("{maps} --alignments {{T}}/found"));
+    assert!(complained.contains("another version of"), "{complained}");
 }

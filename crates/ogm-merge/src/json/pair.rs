@@ -1,6 +1,7 @@
 //! The answer about a pair of maps.
 
-use serde::{Serialize, Serializer};
+use nalgebra::Matrix3;
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 use super::rows;
 use super::stages::StagesJson;
@@ -48,7 +49,7 @@ impl Serialize for Verdict {
     }
 }
 
-#[derive(Serialize)]
+#[derive(Serialize, Deserialize)]
 struct HypothesisJson {
     #[serde(flatten)]
     pose: PoseDegrees,
@@ -68,5 +69,19 @@ impl Serialize for Hypothesis {
             bend_rms_m: self.bend_m,
         };
         hypothesis.serialize(serializer)
+    }
+}
+
+impl<'de> Deserialize<'de> for Hypothesis {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let found = HypothesisJson::deserialize(deserializer)?;
+        let matrix = |rows: [[f64; 3]; 3]| Matrix3::from_fn(|row, column| rows[row][column]);
+        Ok(Self {
+            target_from_source: found.pose.into(),
+            probability: found.probability,
+            score: found.score,
+            covariance: found.covariance.map(matrix),
+            bend_m: found.bend_rms_m,
+        })
     }
 }

@@ -3,7 +3,7 @@
 use std::fmt;
 use std::ops::Mul;
 
-use nalgebra::{Isometry2, Point2, Vector2, Vector3};
+use nalgebra::{Complex, Isometry2, Point2, Translation2, UnitComplex, Vector2, Vector3};
 
 use crate::GridError;
 use crate::angle::wrap_angle;
@@ -33,6 +33,24 @@ impl Se2 {
     #[must_use]
     pub fn identity() -> Self {
         Self(Isometry2::identity())
+    }
+
+    /// The motion of these `parts`: x and y in metres, cosine and sine of the rotation. With
+    /// [`parts`](Self::parts) it is written down and read again to the last bit; `None` for numbers
+    /// that are not finite or no rotation.
+    #[must_use]
+    pub fn from_parts([x, y, cos, sin]: [f64; 4]) -> Option<Self> {
+        let is_rotation = (cos.hypot(sin) - 1.0).abs() < 1e-9;
+        (x.is_finite() && y.is_finite() && is_rotation).then(|| {
+            let rotation = UnitComplex::new_unchecked(Complex::new(cos, sin));
+            Self(Isometry2::from_parts(Translation2::new(x, y), rotation))
+        })
+    }
+
+    /// x and y in metres, cosine and sine of the rotation.
+    #[must_use]
+    pub fn parts(&self) -> [f64; 4] {
+        [self.x(), self.y(), self.0.rotation.re, self.0.rotation.im]
     }
 
     /// Rotation by `theta` radians about `centre`, then translation.
@@ -218,6 +236,15 @@ mod tests {
         fn composition_applies_right_first(a in motion(), b in motion(), x in -9.0_f64..9.0) {
             let p = Point2::new(x, 1.0 - x);
             prop_assert!(((a * b) * p - a * (b * p)).norm() < 1e-10);
+        }
+
+        #[test]
+        fn what_is_written_down_is_read_to_the_last_bit(a in motion(), b in motion()) {
+            let product = a * b;
+            prop_assert!(Se2::from_parts(product.parts()) == Some(product));
+            let [x, y, cos, sin] = product.parts();
+            prop_assert!(Se2::from_parts([x, y, cos + 0.1, sin]).is_none());
+            prop_assert!(Se2::from_parts([f64::NAN, y, cos, sin]).is_none());
         }
 
         #[test]

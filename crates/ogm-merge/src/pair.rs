@@ -1,6 +1,8 @@
 //! The front door: two maps and a method in, one report out.
 
-use grid_match::{Evidence, MatchParams, MatchReport, Prior, match_maps};
+use grid_match::{
+    Evidence, MatchParams, MatchReport, PreparedMap, Prior, match_maps, match_prepared,
+};
 use nalgebra::Matrix3;
 use ogm_core::{Outcome, Progress, Refusal, Se2, Stage};
 use radon_merge::{Candidate, RadonParams};
@@ -55,6 +57,22 @@ pub fn align_pair(
     Ok(report)
 }
 
+/// As [`align_pair`] by [`Method::Match`], of maps that were made ready before, for those that are
+/// matched with many others. Copies are not looked for.
+///
+/// # Errors
+/// Parameters that cannot be meant, or a call that was cancelled.
+pub fn align_prepared(
+    target: &PreparedMap,
+    source: &PreparedMap,
+    params: &AlignParams,
+    progress: &dyn Progress,
+) -> Result<PairReport, MergeError> {
+    let matching = MatchParams { prior: params.prior, ..params.matching.clone() };
+    let found = match_prepared(target, source, &matching, progress)?;
+    Ok(PairReport::of_match(found, params.seed))
+}
+
 /// A map that seems longer by more than this has another scale: drift bends maps, and stretches a
 /// building by less.
 const MOST_STRETCH: f64 = 0.02;
@@ -68,7 +86,7 @@ fn searching(progress: &dyn Progress) -> Stage<'_> {
 
 impl PairReport {
     /// What was found by the maps alone.
-    pub(crate) fn of_match(found: MatchReport, seed: u64) -> Self {
+    fn of_match(found: MatchReport, seed: u64) -> Self {
         let best = found.hypotheses.first();
         let stretch = best.map(|best| [best.bend.stretch.x, best.bend.stretch.y]);
         let stretched = stretch

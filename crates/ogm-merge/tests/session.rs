@@ -120,13 +120,8 @@ fn a_session_taken_up_again_ends_where_it_would_have() {
         feed(&mut whole, step);
         feed(&mut resumed, step);
     }
-    for name in NAMES {
-        assert_eq!(place(&whole, name).is_some(), place(&resumed, name).is_some());
-        if let Some((found, wanted)) = place(&resumed, name).zip(place(&whole, name)) {
-            assert_at(found, &wanted, 1e-6);
-        }
-    }
-    assert!(MergeSession::resume(resumed.save(), SessionParams::default(), &()).is_ok());
+    assert_eq!(whole.save(), resumed.save(), "to the last bit");
+    assert!(place(&whole, "bob").is_some());
 }
 
 #[test]
@@ -240,6 +235,7 @@ fn saved_data_that_is_no_session_is_an_error() {
         ("/robots/0/width", 100_000_000.into()),
         ("/robots/0/resolution", 0.0.into()),
         ("/groups/0/0/map", 9.into()),
+        ("/groups/0/0/group_from_map/2", 7.0.into()),
         ("/pairs/0/source", 0.into()),
     ] {
         let mut bad = good.clone();

@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use numpy::PyArray2;
-use ogm_core::OccupancyGrid;
+use ogm_core::{OccupancyGrid, Se2};
 use ogm_merge::{Hypothesis as Found, PairReport, RobotMap, Verdict, align_pair};
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python, pyclass, pyfunction, pymethods};
 use pyo3::types::PyBytes;
 
 use crate::background::Background;
-use crate::error::map_error;
+use crate::error::{MapError, map_error};
 use crate::map::Map;
 use crate::picture::Picture;
 use crate::search::Search;
@@ -175,10 +175,13 @@ impl Alignment {
     }
 }
 
+/// What a hypothesis is made of again: x, y, cosine and sine, probability, score, covariance, bend.
+type Restored = ([f64; 4], Option<f64>, f64, Option<[[f64; 3]; 3]>, Option<f64>);
+
 /// One way to lay the source on the target.
 #[pyclass(frozen, module = "ogm_maps")]
 #[derive(Debug, Clone)]
-pub(crate) struct Hypothesis(Found);
+pub(crate) struct Hypothesis(pub(crate) Found);
 
 #[pymethods]
 impl Hypothesis {
@@ -204,6 +207,29 @@ impl Hypothesis {
     #[getter]
     fn covariance<'py>(&self, py: Python<'py>) -> PyResult<Option<Bound<'py, PyArray2<f64>>>> {
         self.0.covariance.as_ref().map(|covariance| array(py, covariance)).transpose()
+    }
+
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, Restored)> {
+        let found = &slf.get().0;
+        let covariance = found.covariance.map(|rows| rows.into());
+        let pose = found.target_from_source.parts();
+        let restored = (pose, found.probability, found.score, covariance, found.bend_m);
+        Ok((slf.get_type().getattr("_restore")?, restored))
+    }
+
+    /// The hypothesis of a pickle.
+    #[staticmethod]
+    fn _restore(
+        pose: [f64; 4],
+        probability: Option<f64>,
+        score: f64,
+        covariance: Option<[[f64; 3]; 3]>,
+        bend_m: Option<f64>,
+    ) -> PyResult<Self> {
+        let target_from_source = Se2::from_parts(pose)
+            .ok_or_else(|| MapError::new_err(format!("{pose:?} is no transform")))?;
+        let covariance = covariance.map(Into::into);
+        Ok(Self(Found { target_from_source, probability, score, covariance, bend_m }))
     }
 
     fn __repr__(&self) -> String {

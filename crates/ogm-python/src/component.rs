@@ -63,6 +63,10 @@ impl Fusion {
         Ok(Self(params))
     }
 
+    pub(crate) fn params(&self) -> &FusionParams {
+        &self.0
+    }
+
     pub(crate) fn of(
         &self,
         maps: &[&OccupancyGrid],

@@ -13,7 +13,9 @@ mod message;
 mod numbers;
 mod outcome;
 mod picture;
+mod prepared;
 mod search;
+mod session;
 mod tags;
 mod team;
 mod transform;
@@ -39,6 +41,10 @@ mod _native {
     use crate::outcome::{Join, Merge, Pair};
     #[pymodule_export]
     use crate::picture::Picture;
+    #[pymodule_export]
+    use crate::prepared::PreparedMap;
+    #[pymodule_export]
+    use crate::session::{Change, Robot, Session};
     #[pymodule_export]
     use crate::tags::{Tag, localise_tags};
     #[pymodule_export]

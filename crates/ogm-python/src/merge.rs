@@ -15,7 +15,7 @@ use crate::map::Map;
 use crate::outcome::{Merge, Pair};
 use crate::search::Search;
 use crate::tags::of_maps;
-use crate::team::{Known, merge_known};
+use crate::team::{Alignments, Known, merge_known};
 use crate::transform::{optional, pose};
 
 /// Share of a merge that its search takes; the rest is the fusion.
@@ -26,14 +26,16 @@ const SEARCH: f64 = 0.8;
 /// Two maps are aligned as by `align`. Of more, every pair is; then groups of maps are joined by
 /// what all of their walls say together. `poses` has the poses of maps that are known, by their
 /// place in `maps`, in the frame of map `reference`, with standard deviations `poses_sigma` in
-/// metres and radians; without them the poses are taken as given.
+/// metres and radians; without them the poses are taken as given. `alignments` has the hypotheses
+/// of pairs, (target, source), that were searched elsewhere and are not searched again.
 ///
 /// Maps that do not hang together are a value, not an exception: `bool(result)` says whether they
 /// do, and `result.components` has each group as one map.
 #[pyfunction]
 #[pyo3(signature = (
     maps, *, method = "auto", tags = None, prior = None, prior_sigma = None, accept = None,
-    repeats = false, seed = 0, poses = None, poses_sigma = None, reference = 0,
+    repeats = false, seed = 0, poses = None, poses_sigma = None,
+    alignments = None, reference = 0,
     fusion = None, resolution = None, threads = None, progress = None
 ))]
 #[expect(clippy::too_many_arguments, reason = "keywords")]
@@ -49,6 +51,7 @@ pub(crate) fn merge(
     seed: u64,
     poses: Option<BTreeMap<usize, Bound<'_, PyAny>>>,
     poses_sigma: Option<(f64, f64)>,
+    alignments: Option<Alignments<'_>>,
     reference: usize,
     fusion: Option<&str>,
     resolution: Option<f64>,
@@ -59,7 +62,12 @@ pub(crate) fn merge(
     let fusion = Fusion::new(fusion, resolution)?;
     let background = Background::new(threads, progress)?;
     let grids = grids_of(&maps);
-    let known = Known::new(poses.unwrap_or_default(), poses_sigma, reference)?;
+    let known = Known::new(
+        poses.unwrap_or_default(),
+        poses_sigma,
+        alignments.unwrap_or_default(),
+        reference,
+    )?;
     let tags = of_maps(tags, grids.len())?;
     let [target, source] = match &grids[..] {
         [target, source] if known.is_nothing() => [target, source],

@@ -5,10 +5,10 @@ use std::mem::take;
 use std::sync::Arc;
 
 use ogm_core::{OccupancyGrid, Stage, TagEstimate};
-use ogm_merge::{KnownPose, MergeError, Method, RobotMap, TeamParams, merge_team};
+use ogm_merge::{KnownPose, MergeError, Method, PairAlignment, RobotMap, TeamParams, merge_team};
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python};
 
-use crate::alignment::Alignment;
+use crate::alignment::{Alignment, Hypothesis};
 use crate::background::Background;
 use crate::component::{Component, Fusion};
 use crate::error::MapError;
@@ -23,8 +23,12 @@ const SEARCH: f64 = 0.9;
 #[derive(Debug, Default)]
 pub(crate) struct Known {
     poses: Vec<KnownPose>,
+    alignments: Vec<PairAlignment>,
     reference: usize,
 }
+
+/// What was found about pairs of maps, by their places: target, source.
+pub(crate) type Alignments<'py> = BTreeMap<(usize, usize), Vec<Bound<'py, Hypothesis>>>;
 
 impl Known {
     /// Map `reference` gives the frame, and in it some maps lie as `poses` say, with standard
@@ -32,6 +36,7 @@ impl Known {
     pub(crate) fn new(
         poses: BTreeMap<usize, Bound<'_, PyAny>>,
         sigma: Option<(f64, f64)>,
+        alignments: Alignments<'_>,
         reference: usize,
     ) -> PyResult<Self> {
         let known = |(map, given): (usize, Bound<'_, PyAny>)| {
@@ -39,12 +44,16 @@ impl Known {
             Ok(KnownPose { map, reference_from_map: pose(&given)?, sigma_m, sigma_rad })
         };
         let poses = poses.into_iter().map(known).collect::<PyResult<_>>()?;
-        Ok(Self { poses, reference })
+        let alignments = alignments.into_iter().map(|((target, source), found)| {
+            let hypotheses = found.iter().map(|found| found.get().0.clone()).collect();
+            PairAlignment { target, source, hypotheses }
+        });
+        Ok(Self { poses, alignments: alignments.collect(), reference })
     }
 
     /// Whether nothing is known, and the first map gives the frame.
     pub(crate) fn is_nothing(&self) -> bool {
-        self.poses.is_empty() && self.reference == 0
+        self.poses.is_empty() && self.alignments.is_empty() && self.reference == 0
     }
 }
 
@@ -67,8 +76,8 @@ pub(crate) fn merge_known(
     if search.params.prior.is_some() {
         return Err(MapError::new_err("a prior is for two maps; use poses"));
     }
-    let Known { poses, reference } = known;
-    let params = TeamParams { align: search.params, poses, reference };
+    let Known { poses, alignments, reference } = known;
+    let params = TeamParams { align: search.params, poses, alignments, reference };
     let (mut report, parts) = background.run(py, |progress| {
         let robots: Vec<RobotMap<'_>> =
             maps.iter().zip(tags).map(|(map, tags)| RobotMap { map, tags }).collect();

@@ -47,13 +47,14 @@ impl MergeSession {
         let thresholds = &session.params.align.matching.thresholds;
         session.prepared = prepared(&maps, thresholds, progress)?;
         session.pairs = Pairs::default();
-        for (pair, at) in saved.pairs.iter().map(SavedPair::resumed) {
+        for pair in &saved.pairs {
+            let (pair, at) = pair.resumed()?;
             session.pairs.put(pair, at);
         }
-        let group = |members: &Vec<SavedStanding>| Group {
-            members: members.iter().map(SavedStanding::resumed).collect(),
-        };
-        session.groups = saved.groups.iter().map(group).collect();
+        for members in &saved.groups {
+            let members = members.iter().map(SavedStanding::resumed);
+            session.groups.push(Group { members: members.collect::<Result<_, _>>()? });
+        }
         Ok(session)
     }
 }
@@ -75,9 +76,6 @@ impl SavedSession {
         standing.sort_unstable();
         if standing != (0..count).collect::<Vec<_>>() {
             return Err(ResumeError::Inconsistent("maps that do not stand exactly once"));
-        }
-        if !self.groups.iter().flatten().all(SavedStanding::is_finite) {
-            return Err(ResumeError::Inconsistent("a pose that is not finite"));
         }
         Ok(())
     }

@@ -26,12 +26,12 @@ pub struct SavedSession {
 pub(crate) struct SavedRobot {
     name: String,
     /// `world_from_map` and its standard deviations.
-    prior: Option<([f64; 3], [f64; 2])>,
+    prior: Option<([f64; 4], [f64; 2])>,
     separated: bool,
     revision: u64,
     changed: f64,
     resolution: f64,
-    map_from_grid: [f64; 3],
+    map_from_grid: [f64; 4],
     width: usize,
     height: usize,
     /// Bytes of cells, and how often each follows.
@@ -51,7 +51,7 @@ pub(crate) struct SavedPair {
 #[derive(Debug, Clone, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 struct SavedProposal {
-    target_from_source: [f64; 3],
+    target_from_source: [f64; 4],
     covariance: [[f64; 3]; 3],
     probability: f64,
     score: f64,
@@ -62,7 +62,7 @@ struct SavedProposal {
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub(crate) struct SavedStanding {
     pub(crate) map: usize,
-    group_from_map: [f64; 3],
+    group_from_map: [f64; 4],
     covariance: Option<[[f64; 3]; 3]>,
     bend_m: f64,
     probability: f64,
@@ -81,12 +81,12 @@ impl SavedRobot {
             name: robot.name.clone(),
             prior: robot
                 .prior
-                .map(|prior| (numbers(&prior.world_from_map), [prior.sigma_m, prior.sigma_rad])),
+                .map(|prior| (prior.world_from_map.parts(), [prior.sigma_m, prior.sigma_rad])),
             separated: robot.is_separated,
             revision: robot.at.revision,
             changed: robot.at.changed,
             resolution: map.frame().resolution(),
-            map_from_grid: numbers(&map.frame().map_from_grid()),
+            map_from_grid: map.frame().map_from_grid().parts(),
             width: map.width(),
             height: map.height(),
             cells,
@@ -94,21 +94,24 @@ impl SavedRobot {
     }
 
     pub(crate) fn resumed(self) -> Result<(Robot, OccupancyGrid), ResumeError> {
-        let map = self.map().map_err(|why| ResumeError::Map { robot: self.name.clone(), why })?;
-        let prior = self.prior.map(|(world_from_map, [sigma_m, sigma_rad])| RobotPrior {
-            world_from_map: pose(world_from_map),
-            sigma_m,
-            sigma_rad,
-        });
-        if prior.is_some_and(|prior| prior.check().is_err()) {
-            return Err(ResumeError::Inconsistent("a prior that is no pose"));
+        let map_from_grid = pose(self.map_from_grid)?;
+        let map = self.map(map_from_grid);
+        let map = map.map_err(|why| ResumeError::Map { robot: self.name.clone(), why })?;
+        let mut prior = None;
+        if let Some((world_from_map, [sigma_m, sigma_rad])) = self.prior {
+            let world_from_map = pose(world_from_map)?;
+            let saved = RobotPrior { world_from_map, sigma_m, sigma_rad };
+            if saved.check().is_err() {
+                return Err(ResumeError::Inconsistent("a prior of no standard deviation"));
+            }
+            prior = Some(saved);
         }
         let at = Progressed { revision: self.revision, changed: self.changed };
         Ok((Robot { name: self.name, prior, is_separated: self.separated, at }, map))
     }
 
-    fn map(&self) -> Result<OccupancyGrid, GridError> {
-        let frame = GridFrame::new(self.resolution, pose(self.map_from_grid))?;
+    fn map(&self, map_from_grid: Se2) -> Result<OccupancyGrid, GridError> {
+        let frame = GridFrame::new(self.resolution, map_from_grid)?;
         // Sizes that do not agree with the runs are found before anything is allocated by them.
         let counted: u64 = self.cells.iter().map(|(_, count)| u64::from(*count)).sum();
         let wanted = ogm_core::cell_count(self.width, self.height)?;
@@ -123,7 +126,7 @@ impl SavedRobot {
 impl SavedPair {
     pub(crate) fn new(pair: &Matched, at: &[Progressed; 2]) -> Self {
         let proposal = |found: &Proposal| SavedProposal {
-            target_from_source: numbers(&found.pose.target_from_source),
+            target_from_source: found.pose.target_from_source.parts(),
             covariance: rows(&found.pose.covariance),
             probability: found.pose.probability,
             score: found.score,
@@ -137,19 +140,18 @@ impl SavedPair {
         }
     }
 
-    pub(crate) fn resumed(&self) -> (Matched, [Progressed; 2]) {
-        let proposal = |saved: &SavedProposal| Proposal {
-            pose: RelativePose {
-                target_from_source: pose(saved.target_from_source),
+    pub(crate) fn resumed(&self) -> Result<(Matched, [Progressed; 2]), ResumeError> {
+        let proposal = |saved: &SavedProposal| {
+            let pose = RelativePose {
+                target_from_source: pose(saved.target_from_source)?,
                 covariance: matrix(&saved.covariance),
                 probability: saved.probability,
-            },
-            score: saved.score,
-            bend_m: saved.bend_m,
+            };
+            Ok(Proposal { pose, score: saved.score, bend_m: saved.bend_m })
         };
-        let proposals = self.proposals.iter().map(proposal).collect();
+        let proposals = self.proposals.iter().map(proposal).collect::<Result<_, ResumeError>>()?;
         let at = self.at.map(|(revision, changed)| Progressed { revision, changed });
-        (Matched { target: self.target, source: self.source, proposals }, at)
+        Ok((Matched { target: self.target, source: self.source, proposals }, at))
     }
 }
 
@@ -157,34 +159,26 @@ impl SavedStanding {
     pub(crate) fn new(standing: &Standing) -> Self {
         Self {
             map: standing.map,
-            group_from_map: numbers(&standing.group_from_map),
+            group_from_map: standing.group_from_map.parts(),
             covariance: standing.covariance.as_ref().map(rows),
             bend_m: standing.bend_m,
             probability: standing.probability,
         }
     }
 
-    pub(crate) fn resumed(&self) -> Standing {
-        Standing {
+    pub(crate) fn resumed(&self) -> Result<Standing, ResumeError> {
+        Ok(Standing {
             map: self.map,
-            group_from_map: pose(self.group_from_map),
+            group_from_map: pose(self.group_from_map)?,
             covariance: self.covariance.as_ref().map(matrix),
             bend_m: self.bend_m,
             probability: self.probability,
-        }
-    }
-
-    pub(crate) fn is_finite(&self) -> bool {
-        self.group_from_map.iter().all(|number| number.is_finite())
+        })
     }
 }
 
-fn numbers(target_from_source: &Se2) -> [f64; 3] {
-    [target_from_source.x(), target_from_source.y(), target_from_source.theta()]
-}
-
-fn pose([x, y, theta]: [f64; 3]) -> Se2 {
-    Se2::new(x, y, theta)
+fn pose(parts: [f64; 4]) -> Result<Se2, ResumeError> {
+    Se2::from_parts(parts).ok_or(ResumeError::Inconsistent("a pose that is no motion"))
 }
 
 fn rows(matrix: &Matrix3<f64>) -> [[f64; 3]; 3] {

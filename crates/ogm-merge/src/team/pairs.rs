@@ -2,13 +2,15 @@
 
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use grid_match::{MatchParams, PreparedMap, Prior, match_prepared};
+use grid_match::{PreparedMap, Prior};
 use nalgebra::Matrix3;
 use ogm_core::{ClassThresholds, Progress, RelativePose, Se2, Stage, Steps};
 
 use super::parallel::map_in_order;
 use super::params::{KnownPose, PairAlignment};
-use crate::{AlignParams, Hypothesis, MergeError, Method, PairReport, RobotMap, align_pair};
+use crate::{
+    AlignParams, Hypothesis, MergeError, Method, PairReport, RobotMap, align_pair, align_prepared,
+};
 
 /// Standard deviations of a pose by a method that says nothing about them, metres and radians.
 const UNSTATED: [f64; 2] = [0.1, 0.02];
@@ -110,13 +112,11 @@ pub(crate) fn matched(
         let prior = prior(known(target), known(source));
         let has_tags = [target, source].iter().all(|&map| !maps[map].tags.is_empty());
         let silent = Quiet(progress);
+        let align = AlignParams { prior, ..align.clone() };
         let report = if has_tags {
-            let align = AlignParams { prior, ..align.clone() };
             align_pair(Method::Auto, &maps[target], &maps[source], &align, &silent)?
         } else {
-            let matching = MatchParams { prior, ..align.matching.clone() };
-            let found = match_prepared(&prepared[target], &prepared[source], &matching, &silent)?;
-            PairReport::of_match(found, align.seed)
+            align_prepared(&prepared[target], &prepared[source], &align, &silent)?
         };
         done.fetch_add(1, Ordering::Relaxed);
         Ok((Matched::new(target, source, &report), report))

@@ -6,6 +6,7 @@ target map. Row 0 of an array of cells is the lowest, as in a ROS message.
 
 from ogm_maps._native import (
     Alignment,
+    Change,
     Component,
     Hypothesis,
     Join,
@@ -14,8 +15,11 @@ from ogm_maps._native import (
     Merge,
     Pair,
     Picture,
+    PreparedMap,
     Refinement,
+    Robot,
     Segment,
+    Session,
     Tag,
     Transform,
     Walk,
@@ -34,6 +38,7 @@ from ogm_maps._native import (
 
 __all__ = [
     "Alignment",
+    "Change",
     "Component",
     "Hypothesis",
     "Join",
@@ -42,8 +47,11 @@ __all__ = [
     "Merge",
     "Pair",
     "Picture",
+    "PreparedMap",
     "Refinement",
+    "Robot",
     "Segment",
+    "Session",
     "Tag",
     "Transform",
     "Walk",

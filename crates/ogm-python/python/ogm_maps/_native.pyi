@@ -153,6 +153,16 @@ class Hypothesis:
     @property
     def covariance(self) -> Optional[NDArray[np.float64]]: ...
 
+    def __reduce__(self) -> tuple[Callable[..., Hypothesis], tuple[Any, ...]]: ...
+    @staticmethod
+    def _restore(
+        pose: Sequence[float],
+        probability: Optional[float],
+        score: float,
+        covariance: Optional[Sequence[Sequence[float]]],
+        bend_m: Optional[float],
+    ) -> Hypothesis: ...
+
 @final
 class Alignment:
     @property
@@ -242,6 +252,92 @@ class Merge:
     def probability(self, a: int, b: int) -> Optional[float]: ...
     def _repr_png_(self) -> Optional[bytes]: ...
     def __bool__(self) -> bool: ...
+
+@final
+class PreparedMap:
+    def __new__(cls, map: Map, *, threads: Optional[int] = None) -> PreparedMap: ...
+    def align(
+        self,
+        source: PreparedMap,
+        *,
+        accept: Optional[float] = None,
+        repeats: bool = False,
+        seed: int = 0,
+        threads: Optional[int] = None,
+        progress: Optional[_Progress] = None,
+    ) -> Alignment: ...
+    @property
+    def wall_length(self) -> float: ...
+
+@final
+class Session:
+    def __new__(
+        cls, *, accept: Optional[float] = None, repeats: bool = False, seed: int = 0
+    ) -> Session: ...
+    def update(
+        self,
+        robot: str,
+        map: Map,
+        *,
+        threads: Optional[int] = None,
+        progress: Optional[_Progress] = None,
+    ) -> list[Change]: ...
+    def set_pose(
+        self,
+        robot: str,
+        pose: _Pose,
+        sigma: Optional[tuple[float, float]] = None,
+        *,
+        threads: Optional[int] = None,
+        progress: Optional[_Progress] = None,
+    ) -> list[Change]: ...
+    def separate(self, robot: str) -> list[Change]: ...
+    def release(self, robot: str) -> list[Change]: ...
+    def remove(self, robot: str) -> bool: ...
+    def reconsider(
+        self, *, threads: Optional[int] = None, progress: Optional[_Progress] = None
+    ) -> list[Change]: ...
+    @property
+    def robots(self) -> list[Robot]: ...
+    def map(
+        self,
+        *,
+        fusion: Optional[_Fusion] = None,
+        resolution: Optional[float] = None,
+        threads: Optional[int] = None,
+        progress: Optional[_Progress] = None,
+    ) -> Optional[Map]: ...
+    def save(self) -> str: ...
+    @staticmethod
+    def resume(
+        saved: str, *, accept: Optional[float] = None, repeats: bool = False, seed: int = 0
+    ) -> Session: ...
+
+@final
+class Robot:
+    @property
+    def name(self) -> str: ...
+    @property
+    def transform(self) -> Optional[Transform]: ...
+    @property
+    def probability(self) -> Optional[float]: ...
+    @property
+    def covariance(self) -> Optional[NDArray[np.float64]]: ...
+    @property
+    def together_with(self) -> list[str]: ...
+    @property
+    def best_match(self) -> Optional[tuple[str, float]]: ...
+
+@final
+class Change:
+    @property
+    def robot(self) -> str: ...
+    @property
+    def kind(self) -> Literal["placed", "moved", "undone", "new-frame", "changed"]: ...
+    @property
+    def transform(self) -> Optional[Transform]: ...
+    @property
+    def reason(self) -> Optional[str]: ...
 
 @final
 class Tag:
@@ -344,6 +440,7 @@ def merge(
     seed: int = 0,
     poses: Optional[dict[int, Any]] = None,
     poses_sigma: Optional[tuple[float, float]] = None,
+    alignments: Optional[dict[tuple[int, int], list[Hypothesis]]] = None,
     reference: int = 0,
     fusion: Optional[_Fusion] = None,
     resolution: Optional[float] = None,

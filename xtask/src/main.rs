@@ -10,6 +10,7 @@ mod bar;
 mod compare;
 mod diff;
 mod fit;
+mod fleet;
 mod fusion;
 #[cfg(test)]
 mod layers;
@@ -38,6 +39,8 @@ enum Task {
     Diff(diff::Args),
     /// Fits the weights of the matcher and writes them into its source.
     Fit(fit::Args),
+    /// Measures what an index of map signatures saves a fleet, and what it misses.
+    Fleet(fleet::Args),
     /// Fuses real map pairs and measures what became of their walls.
     Fusion(fusion::Args),
     /// Times the command `ogm` and other tools on the same map pairs, and scores their answers.
@@ -55,6 +58,7 @@ fn main() -> ExitCode {
         Task::Compare(args) => compare::run(args),
         Task::Diff(args) => diff::run(&args),
         Task::Fit(args) => fit::run(args),
+        Task::Fleet(args) => fleet::run(&args),
         Task::Fusion(args) => fusion::run(&args),
         Task::Race(args) => race::run(args),
         Task::Fixtures { out } => ogm_eval::fixtures::write(&out).map(|()| ExitCode::SUCCESS),

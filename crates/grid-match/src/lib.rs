@@ -70,6 +70,7 @@ mod rotation;
 mod score;
 mod search;
 mod sides;
+mod signature;
 mod smooth;
 mod spectrum;
 mod state;
@@ -91,6 +92,7 @@ pub use ogm_core;
 pub use params::{Effort, MatchParams, Prior};
 pub use prepare::PreparedMap;
 pub use report::{Bend, Hypothesis, MatchReport, PatchMotion, WeakDirection};
+pub use signature::{MapSignature, View, candidate_pairs};
 pub use terms::{TERM_NAMES, TERMS, Weights};
 
 #[cfg(doctest)]

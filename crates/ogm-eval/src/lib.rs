@@ -28,6 +28,7 @@ mod draw;
 mod experiments;
 pub mod fit;
 pub mod fixtures;
+pub mod fleet;
 pub mod fusion;
 mod judge;
 mod measured;

@@ -70,7 +70,7 @@ mod warning;
 pub use carpin_walk::Objective as WalkObjective;
 pub use error::MergeError;
 pub use evidence::{TagEvidence, WallAgreement, WallDirection};
-pub use grid_match::{MatchParams, PreparedMap, Prior};
+pub use grid_match::{MapSignature, MatchParams, PreparedMap, Prior, View, candidate_pairs};
 pub use grid_merge::{ConflictRegion, FusionParams, FusionRule, Merged, PlacedMap};
 pub use known::{KnownPair, KnownPoses, known_poses};
 pub use memory::{aligning_bytes, fusing_bytes};

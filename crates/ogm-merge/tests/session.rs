@@ -3,9 +3,10 @@
 #![expect(clippy::unwrap_used, reason = "a test that cannot go on has failed")]
 
 use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use nalgebra::Point2;
-use ogm_core::{ClassThresholds, GridFrame, Occupancy, OccupancyGrid, Se2};
+use ogm_core::{ClassThresholds, GridFrame, Occupancy, OccupancyGrid, Progress, Se2};
 use ogm_merge::{
     Because, Change, ChangeKind, FusionParams, MergeSession, RobotMap, RobotPrior, SavedSession,
     SessionParams, TeamParams, merge_team,
@@ -131,6 +132,30 @@ fn the_same_map_again_changes_nothing() {
     let before = session.save();
     assert!(session.update("bob", &team.maps[1], &()).unwrap().is_empty());
     assert_eq!(session.save(), before);
+}
+
+#[test]
+fn a_call_that_was_cancelled_is_made_up_for_by_the_next() {
+    struct At(f64, AtomicBool);
+    impl Progress for At {
+        fn report(&self, share: f64) {
+            self.1.fetch_or(share >= self.0, Ordering::Relaxed);
+        }
+
+        fn is_cancelled(&self) -> bool {
+            self.1.load(Ordering::Relaxed)
+        }
+    }
+    let team = team();
+    let plain = fed(&team.maps[..2]);
+    for share in [0.0, 0.15, 0.4] {
+        let mut session = fed(&team.maps[..1]);
+        let early = At(share, AtomicBool::new(false));
+        let outcome = session.update("bob", &team.maps[1], &early);
+        assert!(outcome.unwrap_err().is_cancelled());
+        session.update("bob", &team.maps[1], &()).unwrap();
+        assert_eq!(place(&session, "bob"), place(&plain, "bob"));
+    }
 }
 
 #[test]

@@ -42,7 +42,7 @@ mod _native {
     #[pymodule_export]
     use crate::picture::Picture;
     #[pymodule_export]
-    use crate::prepared::PreparedMap;
+    use crate::prepared::{MapSignature, PreparedMap, candidate_pairs};
     #[pymodule_export]
     use crate::session::{Change, Robot, Session};
     #[pymodule_export]

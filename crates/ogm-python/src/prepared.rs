@@ -3,8 +3,11 @@
 use std::sync::Arc;
 
 use ogm_core::OccupancyGrid;
-use ogm_merge::{MatchParams, PreparedMap as Ready, align_prepared};
-use pyo3::prelude::{Bound, PyAny, PyResult, Python, pyclass, pymethods};
+use ogm_merge::{
+    MapSignature as Signature, MatchParams, PreparedMap as Ready, View, align_prepared,
+    candidate_pairs as alike,
+};
+use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python, pyclass, pyfunction, pymethods};
 
 use crate::alignment::Alignment;
 use crate::background::Background;
@@ -54,6 +57,11 @@ impl PreparedMap {
         Ok(Alignment::new(report, [&self.grid, &source.grid].map(Arc::clone)))
     }
 
+    /// What the map looks like from inside, for `candidate_pairs`.
+    fn signature(&self, py: Python<'_>) -> MapSignature {
+        MapSignature(py.detach(|| self.ready.signature()))
+    }
+
     /// Metres of wall that the matcher sees.
     #[getter]
     fn wall_length(&self) -> f64 {
@@ -63,4 +71,43 @@ impl PreparedMap {
     fn __repr__(&self) -> String {
         format!("PreparedMap({:.1} m of wall)", self.ready.wall_length())
     }
+}
+
+/// What a map looks like from inside, whatever its heading.
+#[pyclass(frozen, module = "ogm_maps")]
+#[derive(Debug, Clone)]
+pub(crate) struct MapSignature(Signature);
+
+#[pymethods]
+impl MapSignature {
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, (Vec<View>,))> {
+        Ok((slf.get_type().getattr("_restore")?, (slf.get().0.views().to_vec(),)))
+    }
+
+    /// The signature of a pickle.
+    #[staticmethod]
+    fn _restore(views: Vec<View>) -> Self {
+        Self(Signature::from_views(views))
+    }
+
+    fn __len__(&self) -> usize {
+        self.0.views().len()
+    }
+
+    fn __repr__(&self) -> String {
+        format!("MapSignature({} places)", self.0.views().len())
+    }
+}
+
+/// Pairs of maps that look alike from inside, `partners` for each map or more: places among
+/// `signatures`, ascending.
+#[pyfunction]
+pub(crate) fn candidate_pairs(
+    py: Python<'_>,
+    signatures: Vec<Bound<'_, MapSignature>>,
+    partners: usize,
+) -> Vec<(usize, usize)> {
+    let signatures: Vec<Signature> =
+        signatures.iter().map(|signature| signature.get().0.clone()).collect();
+    py.detach(|| alike(&signatures, partners))
 }

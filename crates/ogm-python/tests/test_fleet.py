@@ -81,3 +81,11 @@ def test_pairs_are_chosen_by_the_caller(client):
     assert sum(len(c) for c in merged.components) == 4
     with pytest.raises(ValueError, match="no pair"):
         fleet.align_pairs(client, maps, [(0, 9)])
+
+
+def test_maps_that_look_alike_are_proposed(client):
+    maps = maps_of(8)
+    likely = fleet.likely_pairs(client, maps, 2)
+    assert 8 <= len(likely) <= 16 and likely == sorted(set(likely))
+    one_floor = [(a, b) for a, b in likely if a % 2 == b % 2]
+    assert len(one_floor) > len(likely) / 2

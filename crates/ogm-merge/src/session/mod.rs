@@ -68,6 +68,8 @@ pub struct MergeSession {
     pairs: Pairs,
     /// Every map is in one; the first is the world, and its first map holds the frame.
     groups: Vec<Group>,
+    /// Whether the last call came to its end.
+    is_settled: bool,
 }
 
 impl MergeSession {
@@ -84,6 +86,7 @@ impl MergeSession {
             prepared: Vec::new(),
             pairs: Pairs::default(),
             groups: Vec::new(),
+            is_settled: true,
         })
     }
 
@@ -100,7 +103,7 @@ impl MergeSession {
     ) -> Result<Vec<Change>, MergeError> {
         let before = self.placed();
         let known = self.index(robot);
-        if known.is_some_and(|index| self.maps[index] == *map) {
+        if self.is_settled && known.is_some_and(|index| self.maps[index] == *map) {
             progress.report(1.0);
             return Ok(Vec::new());
         }
@@ -127,6 +130,7 @@ impl MergeSession {
                 index
             }
         };
+        self.is_settled = false;
         let settled = self.settling().settle(&[index], &Stage::new(progress, 0.2, 1.0))?;
         let because = self.keep(settled);
         Ok(self.changes(&before, because, anew))

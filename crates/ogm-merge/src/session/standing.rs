@@ -31,6 +31,7 @@ impl MergeSession {
     pub(super) fn keep(&mut self, settled: Settled) -> Option<Because> {
         self.pairs = settled.pairs;
         self.groups = settled.groups;
+        self.is_settled = true;
         settled.because
     }
 
@@ -67,6 +68,7 @@ impl MergeSession {
         self.robots[index].prior = prior;
         self.robots[index].is_separated = separate;
         self.pairs.forget(index);
+        self.is_settled = false;
         let settled = self.settling().settle(&[index], progress)?;
         let because = self.keep(settled).or(Some(Because::Asked));
         Ok(self.changes(&before, because, None))

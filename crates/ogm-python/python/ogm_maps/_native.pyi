@@ -266,8 +266,16 @@ class PreparedMap:
         threads: Optional[int] = None,
         progress: Optional[_Progress] = None,
     ) -> Alignment: ...
+    def signature(self) -> MapSignature: ...
     @property
     def wall_length(self) -> float: ...
+
+@final
+class MapSignature:
+    def __len__(self) -> int: ...
+    def __reduce__(self) -> tuple[Callable[..., MapSignature], tuple[Any, ...]]: ...
+    @staticmethod
+    def _restore(views: Sequence[Sequence[float]]) -> MapSignature: ...
 
 @final
 class Session:
@@ -428,6 +436,9 @@ def align(
     threads: Optional[int] = None,
     progress: Optional[_Progress] = None,
 ) -> Alignment: ...
+def candidate_pairs(
+    signatures: Sequence[MapSignature], partners: int
+) -> list[tuple[int, int]]: ...
 def merge(
     maps: Sequence[Map],
     *,

@@ -16,9 +16,17 @@ from typing import Any, Optional
 
 from distributed import Client, as_completed
 
-from ogm_maps._native import Hypothesis, Map, Merge, PreparedMap, merge
+from ogm_maps._native import (
+    Hypothesis,
+    Map,
+    MapSignature,
+    Merge,
+    PreparedMap,
+    candidate_pairs,
+    merge,
+)
 
-__all__ = ["align_pairs", "merge_maps"]
+__all__ = ["align_pairs", "likely_pairs", "merge_maps"]
 
 Pair = tuple[int, int]
 Found = list[tuple[Pair, list[Hypothesis]]]
@@ -72,6 +80,20 @@ def align_pairs(
     return found
 
 
+def likely_pairs(
+    client: Client, maps: Sequence[Map], partners: int = 20, *, retries: int = 5
+) -> list[Pair]:
+    """Pairs of `maps` that look alike from inside, `partners` for each map or more.
+
+    What this saves and what it misses is measured in docs/fleet.md.
+    """
+    sent = [
+        client.submit(_signature, _Packed(place, map), retries=retries, pure=False)
+        for place, map in enumerate(maps)
+    ]
+    return candidate_pairs(client.gather(sent), partners)
+
+
 def merge_maps(
     client: Client,
     maps: Sequence[Map],
@@ -117,6 +139,10 @@ class _Packed:
         pickled = pickle.dumps(map)
         self.bytes = zlib.compress(pickled, 1)
         self.key = hashlib.sha256(pickled).digest()
+
+
+def _signature(packed: _Packed) -> MapSignature:
+    return _prepared(packed).signature()
 
 
 def _align(pairs: list[Pair], packed: list[_Packed], repeats: bool) -> Found:

@@ -21,6 +21,8 @@ pub(crate) enum Stream {
     Route,
     Style,
     Team,
+    Wheels,
+    Gyroscope,
 }
 
 /// The generator of `stream` for the work item `item`.

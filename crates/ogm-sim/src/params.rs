@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use nalgebra::Vector2;
 use ogm_core::{ParameterError, require};
 
 /// A robot, its sensors and the seed of everything random about a pair of them.
@@ -137,7 +138,15 @@ impl LidarParams {
         }
     }
 
-    fn check(&self) -> Result<(), ParameterError> {
+    /// Unit vectors along the beams of a robot that looks along x, from right to left.
+    #[must_use]
+    pub fn directions(&self) -> Vec<Vector2<f64>> {
+        let increment = self.field_of_view / (self.beams - 1) as f64;
+        let angles = (0..self.beams).map(|beam| increment * beam as f64 - self.field_of_view / 2.0);
+        angles.map(|angle| Vector2::new(angle.cos(), angle.sin())).collect()
+    }
+
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         positive("field_of_view", self.field_of_view)?;
         require(
             self.field_of_view <= TAU,
@@ -178,7 +187,7 @@ impl Default for MappingParams {
 }
 
 impl MappingParams {
-    fn check(&self) -> Result<(), ParameterError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         positive("resolution", self.resolution)?;
         positive("occupied_update", self.occupied_update)?;
         positive("-free_update", -self.free_update)?;

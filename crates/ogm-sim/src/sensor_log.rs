@@ -47,8 +47,9 @@ pub struct SensorParams {
 }
 
 impl SensorParams {
-    /// The robots of Saeedi et al., who print the laser only: two scans a second at 0.3 m/s, and
-    /// noise of wheels that slip and of a MEMS gyroscope.
+    /// The robots of Saeedi et al., who print the laser only: two scans a second at 0.3 m/s, wheels
+    /// that slip, and a MEMS gyroscope whose bias is known to a tenth of a degree a second, as from
+    /// standing still.
     #[must_use]
     pub fn sa() -> Self {
         Self {
@@ -59,7 +60,7 @@ impl SensorParams {
             track: 0.35,
             wheel_sigma_per_root_m: 0.02,
             yaw_rate_sigma: 0.01,
-            bias_sigma: 0.01,
+            bias_sigma: 0.002,
             bias_walk: 1e-4,
             lidar: LidarParams::sa(),
         }

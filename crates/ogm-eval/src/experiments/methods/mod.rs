@@ -7,6 +7,7 @@ mod record;
 mod run;
 mod tables;
 mod variants;
+mod worked_figures;
 
 use crate::cases::worlds::Building;
 use crate::measured::Measured;

@@ -13,6 +13,9 @@ const PAIRS: usize = 60;
 /// Cells of a wall lie within so many distances of votes from a piece that cuts it: both faces, seen
 /// from one that runs from the one to the other.
 const BESIDE: f64 = 4.0;
+/// Cells of one face lie within this share of the distance of votes from its axis: the other face of
+/// a wall of a coarse map must not.
+const NEAR: f64 = 0.6;
 /// Fits at most; they settle in two or three.
 const FITS: usize = 5;
 
@@ -79,20 +82,20 @@ pub(crate) fn settle(
     };
     let around: Vec<Cell> = cells.iter().copied().filter(is_beside).collect();
     let mut best = Fitted::of(piece.cells.iter().copied())?;
-    let mut best_score = best.score(&around, reach);
+    let mut best_score = best.score(&around, NEAR * reach);
     for _ in 0..PAIRS {
         // Of the piece, so that it does not leave its wall for one with more cells.
         let [first, second] = [0; 2].map(|_| piece.cells[rng.random_range(0..piece.cells.len())]);
         let between = Fitted::between(first, second);
         let Some(mut fitted) = between else { continue };
-        let mut score = fitted.score(&around, reach);
+        let mut score = fitted.score(&around, NEAR * reach);
         if score <= best_score {
             continue;
         }
         for _ in 0..FITS {
-            let near = around.iter().copied().filter(|&cell| fitted.distance(cell) < reach);
+            let near = around.iter().copied().filter(|&cell| fitted.distance(cell) < NEAR * reach);
             let Some(next) = Fitted::of(near) else { break };
-            let next_score = next.score(&around, reach);
+            let next_score = next.score(&around, NEAR * reach);
             if next_score <= score {
                 break;
             }

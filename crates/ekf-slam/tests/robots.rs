@@ -161,7 +161,10 @@ fn what_cannot_be_meant_is_an_error_and_leaves_the_filter_as_it_was() {
     let before = filter.estimate();
     let still = Reading::Imu { yaw_rate: 0.0 };
     assert!(matches!(filter.add(0.5, &still), Err(EkfError::TimeGoesBack { .. })));
-    assert!(matches!(filter.add(1e9, &still), Err(EkfError::Gap { .. })));
+    let limit = EkfParams::default().max_gap_s;
+    assert!(filter.clone().add(1.0 + limit, &still).is_ok());
+    let gap = limit + 0.5;
+    assert_eq!(filter.add(1.0 + gap, &still), Err(EkfError::Gap { gap, limit }));
     assert!(matches!(filter.add(f64::NAN, &still), Err(EkfError::NonFiniteTime { .. })));
     for value in [f64::NAN, f64::INFINITY, 1e300] {
         let odometry = Reading::Odometry { left_m: value, right_m: 0.0 };

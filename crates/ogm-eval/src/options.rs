@@ -87,7 +87,7 @@ impl ExperimentId {
                  request"
             }
             Self::X8 => {
-                "Robots that place themselves, three of which share their maps; only on request"
+                "Robots that place themselves, and three that share their maps (Saeedi et al.)"
             }
             Self::X9 => "Teams of maps, pair by pair and together; only on request",
         }
@@ -96,7 +96,7 @@ impl ExperimentId {
     /// Whether it runs only when asked for: it takes minutes with all its runs.
     #[must_use]
     pub fn is_on_request(self) -> bool {
-        matches!(self, Self::X5 | Self::X6 | Self::X7 | Self::X8 | Self::X9)
+        matches!(self, Self::X5 | Self::X6 | Self::X7 | Self::X9)
     }
 }
 

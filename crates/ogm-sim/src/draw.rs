@@ -23,6 +23,7 @@ pub(crate) enum Stream {
     Team,
     Wheels,
     Gyroscope,
+    TagEchoes,
 }
 
 /// The generator of `stream` for the work item `item`.

@@ -206,6 +206,12 @@ pub struct TagParams {
     pub range_sigma: f64,
     /// Added to every range, metres.
     pub range_bias: f64,
+    /// Share of the readings that come by way of a wall and are longer, by up to `echo_length`.
+    pub echo_share: f64,
+    /// Most that a reflection adds to a range, metres.
+    pub echo_length: f64,
+    /// Share of the readings that are lost.
+    pub lost_share: f64,
     /// Standard deviation, per axis, of how far each robot takes each tag from its place, metres;
     /// stands for whatever makes two robots disagree about a tag.
     pub tag_position_sigma: f64,
@@ -218,6 +224,9 @@ impl Default for TagParams {
             max_range: 3.0,
             range_sigma: 0.05,
             range_bias: 0.0,
+            echo_share: 0.0,
+            echo_length: 1.5,
+            lost_share: 0.0,
             tag_position_sigma: 0.0,
         }
     }
@@ -228,6 +237,10 @@ impl TagParams {
         positive("tags.max_range", self.max_range)?;
         not_negative("tags.range_sigma", self.range_sigma)?;
         not_negative("tags.range_bias.abs()", self.range_bias.abs())?;
+        for (name, share) in [("echo_share", self.echo_share), ("lost_share", self.lost_share)] {
+            require((0.0..=1.0).contains(&share), name, "0 to 1", share)?;
+        }
+        not_negative("echo_length", self.echo_length)?;
         not_negative("tag_position_sigma", self.tag_position_sigma)
     }
 }

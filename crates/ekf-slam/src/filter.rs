@@ -81,6 +81,10 @@ impl Ekf {
         let verdict = match reading {
             Reading::Odometry { left_m, right_m } => next.predict(*left_m, *right_m),
             Reading::ScanMatch(scan) => next.correct_by_scan(scan)?,
+            Reading::UnmatchedScan => {
+                next.clone_scan();
+                Verdict::Predicted
+            }
             Reading::Imu { yaw_rate } => next.correct_by_yaw_rate(*yaw_rate)?,
         };
         let values = next.state.iter().chain(&next.covariance);

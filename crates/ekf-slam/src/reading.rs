@@ -17,6 +17,8 @@ pub enum Reading {
     /// robot's frame at either: target is the robot at the last scan, source the robot now. It is
     /// held against the odometry up to now, which must come first. Its probability is not used.
     ScanMatch(RelativePose),
+    /// A scan that could not be matched with the last one: the next match counts from here.
+    UnmatchedScan,
     /// Mean yaw rate since the last one (or the start), counter-clockwise.
     Imu {
         /// Radians a second.
@@ -27,7 +29,7 @@ pub enum Reading {
 /// What became of a reading.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Verdict {
-    /// Odometry moved the estimate.
+    /// Nothing to correct by: odometry moved the estimate, or a scan was not matched.
     Predicted,
     /// The reading corrected the estimate.
     Used {

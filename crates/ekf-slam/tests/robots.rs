@@ -139,13 +139,32 @@ fn an_outlier_is_left_out_and_the_next_scan_is_used() {
 }
 
 #[test]
+fn after_a_scan_without_a_match_the_next_counts_from_there() {
+    let mut filter = start();
+    let odometry = Reading::Odometry { left_m: 0.1, right_m: 0.1 };
+    let scan = Reading::ScanMatch(RelativePose {
+        target_from_source: Se2::new(0.1, 0.0, 0.0),
+        covariance: scan_covariance(),
+        probability: 1.0,
+    });
+    filter.add(1.0, &odometry).unwrap();
+    assert_eq!(filter.add(1.0, &Reading::UnmatchedScan).unwrap(), Verdict::Predicted);
+    filter.add(2.0, &odometry).unwrap();
+    let Verdict::Used { distance_sq } = filter.add(2.0, &scan).unwrap() else { panic!() };
+    assert!(distance_sq < 1e-9, "{distance_sq}");
+}
+
+#[test]
 fn what_cannot_be_meant_is_an_error_and_leaves_the_filter_as_it_was() {
     let mut filter = start();
     filter.add(1.0, &Reading::Odometry { left_m: 0.1, right_m: 0.1 }).unwrap();
     let before = filter.estimate();
     let still = Reading::Imu { yaw_rate: 0.0 };
     assert!(matches!(filter.add(0.5, &still), Err(EkfError::TimeGoesBack { .. })));
-    assert!(matches!(filter.add(1e9, &still), Err(EkfError::Gap { .. })));
+    let limit = EkfParams::default().max_gap_s;
+    assert!(filter.clone().add(1.0 + limit, &still).is_ok());
+    let gap = limit + 0.5;
+    assert_eq!(filter.add(1.0 + gap, &still), Err(EkfError::Gap { gap, limit }));
     assert!(matches!(filter.add(f64::NAN, &still), Err(EkfError::NonFiniteTime { .. })));
     for value in [f64::NAN, f64::INFINITY, 1e300] {
         let odometry = Reading::Odometry { left_m: value, right_m: 0.0 };

@@ -38,6 +38,7 @@ mod params;
 mod points;
 mod pool;
 mod reliability;
+mod settle;
 mod strip;
 
 pub use extract::{Extraction, Stages, Statistics, extract_segments};

@@ -6,7 +6,8 @@ use crate::breakdown::break_at_gaps;
 use crate::detect::{Detection, detect};
 use crate::join::{JoinLimits, join};
 use crate::line::Line;
-use crate::params::{InCells, Params};
+use crate::params::{DirectionRule, InCells, Params};
+use crate::settle::settle;
 use crate::strip::Cell;
 
 /// Lines after each stage.
@@ -23,10 +24,19 @@ pub(crate) fn lines_of(
     params: &Params,
     rng: &mut ChaCha8Rng,
 ) -> Lines {
-    let detection = detect(cells, limits.line_distance, params, rng);
+    let detection = detect(cells.clone(), limits.line_distance, params, rng);
     let pieces = |line| break_at_gaps(line, limits.max_gap, params.break_rule, params.direction);
-    let broken: Vec<Line> = detection.lines.iter().flat_map(pieces).collect();
+    let mut broken: Vec<Line> = detection.lines.iter().flat_map(pieces).collect();
+    if params.direction == DirectionRule::TotalLeastSquares {
+        let settled = |piece| settle(piece, &cells, limits.line_distance, rng);
+        broken = broken.iter().filter_map(settled).collect();
+    }
     let join_limits = JoinLimits { angle: params.join_angle, distance: limits.join_distance };
-    let joined = join(broken.clone(), join_limits, params.direction);
+    let mut joined = join(broken.clone(), join_limits, params.direction);
+    // Pieces of one wall may have settled on the same cells.
+    for line in &mut joined {
+        line.cells.sort_unstable();
+        line.cells.dedup();
+    }
     Lines { detection, broken, joined }
 }

@@ -117,6 +117,27 @@ fn a_closed_room_gives_its_four_walls_with_every_seed() {
     assert!(sides_found(&half, 0.3) < 4, "the paper's stop leaves walls out");
 }
 
+/// Robots see an interior wall from both sides: two rows of cells, 0.12 m apart. A strip from one to
+/// the other has as many votes as one along either.
+#[test]
+fn an_interior_wall_runs_along_its_faces_and_not_from_one_to_the_other() {
+    let walls = map(600, |x, y| {
+        let across = (y + 23.0 * (x / 120.0).floor()).rem_euclid(120.0);
+        let on_face = [40.0, 46.0].iter().any(|face| (0.0..2.0).contains(&(across - face)));
+        on_face && (x.rem_euclid(120.0) - 60.0).abs() < 50.0
+    });
+    let walls = in_frame(walls.cells().clone(), 0.02, Se2::identity());
+    let mut tilts = Vec::new();
+    for seed in 0..20 {
+        let found = found(&walls, &Params { seed, ..Params::default() });
+        assert!(found.segments.len() >= 30, "seed {seed}: {}", found.segments.len());
+        tilts.extend(found.segments.iter().map(|wall| wall.direction.to_degrees().abs()));
+    }
+    tilts.sort_by(f64::total_cmp);
+    let tilted = tilts.iter().filter(|&&tilt| tilt > 2.0).count();
+    assert!(tilted * 50 < tilts.len(), "{tilted} of {}: {:?}", tilts.len(), tilts.last());
+}
+
 /// The farthest cells of a line that takes in the ends of perpendicular walls lie on a diagonal
 /// that leaves the wall. Nine seeds in a thousand lose all walls of this room that way.
 #[test]
@@ -126,7 +147,8 @@ fn a_room_is_missed_where_lines_run_between_their_farthest_cells_and_not_by_thei
     let outcome = extract_segments(&room(0.0), &as_printed);
     let expected = Refusal::NoLines { candidates: 3 };
     assert_eq!(outcome, Outcome::Refused(expected));
-    assert!(found(&room(0.0), &by_axis).segments.len() >= 3);
+    // Two walls are more than half of the cells, at which the paper stops.
+    assert!(found(&room(0.0), &by_axis).segments.len() >= 2);
 }
 
 proptest! {

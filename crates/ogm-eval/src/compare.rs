@@ -3,7 +3,8 @@
 use std::path::Path;
 
 use crate::experiments::{
-    labelled, methods, random_walk, real_pairs, segments, teams, wall_direction, worked_tables,
+    labelled, methods, random_walk, real_pairs, robots, segments, teams, wall_direction,
+    worked_tables,
 };
 use crate::measured::Measured;
 use crate::output;
@@ -35,6 +36,7 @@ pub fn run(options: &Options) -> anyhow::Result<Comparison> {
             ExperimentId::X5 => random_walk::measure(options)?,
             ExperimentId::X6 => segments::measure(options)?,
             ExperimentId::X7 => labelled::measure(options)?,
+            ExperimentId::X8 => robots::measure(options)?,
             ExperimentId::X9 => teams::measure(options)?,
         };
         all.extend(measured);

@@ -14,7 +14,7 @@ pub struct Options {
     pub experiments: Vec<ExperimentId>,
     /// First seed; run i uses seed + i.
     pub seed: u64,
-    /// Worlds of X4 and X5, indices of X7 and X9 and, five times as many, extractions of X3.
+    /// Worlds of X4 and X5, teams of X8, indices of X7 and X9 and, five times as many, extractions of X3.
     pub runs: Option<u32>,
     /// A few runs, judged by looser floors.
     pub quick: bool,
@@ -43,14 +43,16 @@ pub enum ExperimentId {
     X6,
     /// The matcher on labelled pairs.
     X7,
+    /// One robot's filters, and three that share their maps.
+    X8,
     /// Teams of maps.
     X9,
 }
 
 impl ExperimentId {
     /// Every experiment, in the order of the report.
-    pub const ALL: [Self; 8] =
-        [Self::X1, Self::X2, Self::X3, Self::X4, Self::X5, Self::X6, Self::X7, Self::X9];
+    pub const ALL: [Self; 9] =
+        [Self::X1, Self::X2, Self::X3, Self::X4, Self::X5, Self::X6, Self::X7, Self::X8, Self::X9];
 
     /// Its name on a command line.
     #[must_use]
@@ -63,6 +65,7 @@ impl ExperimentId {
             Self::X5 => "x5",
             Self::X6 => "x6",
             Self::X7 => "x7",
+            Self::X8 => "x8",
             Self::X9 => "x9",
         }
     }
@@ -82,6 +85,9 @@ impl ExperimentId {
             Self::X7 => {
                 "The matcher on labelled pairs of maps, and whether its probability holds; only on \
                  request"
+            }
+            Self::X8 => {
+                "Robots that place themselves, and three that share their maps (Saeedi et al.)"
             }
             Self::X9 => "Teams of maps, pair by pair and together; only on request",
         }

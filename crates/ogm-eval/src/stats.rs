@@ -85,19 +85,33 @@ pub(crate) fn quantile(values: &[f64], p: f64) -> Option<f64> {
 /// Percentile-bootstrap 95 % interval of the mean: the same for the same values and seed.
 /// `None` of nothing or with a NaN.
 pub(crate) fn bootstrap_ci95(values: &[f64], seed: u64) -> Option<(f64, f64)> {
-    if values.is_empty() || values.iter().any(|value| value.is_nan()) {
+    bootstrap_ci95_of(values.len(), seed, |drawn| {
+        drawn.iter().map(|&index| values[index]).sum::<f64>() / drawn.len() as f64
+    })
+}
+
+/// The same of any statistic of `count` cases, which is given the places of those drawn.
+pub(crate) fn bootstrap_ci95_of(
+    count: usize,
+    seed: u64,
+    statistic: impl Fn(&[usize]) -> f64,
+) -> Option<(f64, f64)> {
+    if count == 0 {
         return None;
     }
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let n = values.len();
-    let mut means: Vec<f64> = (0..RESAMPLES)
+    let mut drawn = vec![0; count];
+    let mut found: Vec<f64> = (0..RESAMPLES)
         .map(|_| {
-            let sum: f64 = (0..n).map(|_| values[rng.random_range(0..n)]).sum();
-            sum / n as f64
+            drawn.fill_with(|| rng.random_range(0..count));
+            statistic(&drawn)
         })
         .collect();
-    means.sort_by(f64::total_cmp);
-    let end = |p| quantile_of_sorted(&means, p);
+    if found.iter().any(|value| value.is_nan()) {
+        return None;
+    }
+    found.sort_by(f64::total_cmp);
+    let end = |p| quantile_of_sorted(&found, p);
     Some((end(0.025), end(0.975)))
 }
 

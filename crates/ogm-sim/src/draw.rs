@@ -21,6 +21,9 @@ pub(crate) enum Stream {
     Route,
     Style,
     Team,
+    Wheels,
+    Gyroscope,
+    TagEchoes,
 }
 
 /// The generator of `stream` for the work item `item`.

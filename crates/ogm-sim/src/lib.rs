@@ -27,6 +27,8 @@
 //! - [`labelled_pair`]: two maps of floors of many kinds, overlapping or not, with the transform
 //!   that is right, to measure and to calibrate a matcher.
 //! - [`labelled_team`]: the maps of a whole team, robots that never meet and a stranger among them.
+//! - Sensor logs: [`record_sensors`] gives what encoders, gyroscope and laser of a
+//!   differential-drive robot say along a path, and [`map_scans`] makes a map of placed scans.
 //! - Real maps: [`drive`] finds a path through their free space and [`tag_readings`] reads
 //!   simulated tags along it.
 //!
@@ -54,6 +56,8 @@ mod plan_text;
 mod random_plan;
 mod rounds;
 mod run;
+mod scans;
+mod sensor_log;
 mod style;
 mod symmetry;
 mod tags;
@@ -72,6 +76,8 @@ pub use pair::{SimulatedPair, simulate_pair};
 pub use params::{DriftParams, LidarParams, MappingParams, PairParams, TagParams};
 pub use plan::{Face, FloorPlan, SOURCE, TARGET};
 pub use run::{RobotRun, map_along_path, survey};
+pub use scans::map_scans;
+pub use sensor_log::{SensorLog, SensorParams, SensorSample, record_sensors};
 pub use style::MapStyle;
 pub use tags::tag_readings;
 pub use team::{SimulatedTeam, TeamMember, simulate_team};

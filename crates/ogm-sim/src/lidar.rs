@@ -25,13 +25,7 @@ impl Lidar {
     /// `params` must be checked.
     pub(crate) fn new(plan: &FloorPlan, params: &LidarParams) -> Self {
         let increment = params.field_of_view / (params.beams - 1) as f64;
-        let first = -params.field_of_view / 2.0;
-        let beams: Vec<_> = (0..params.beams)
-            .map(|beam| {
-                let (sin, cos) = (first + increment * beam as f64).sin_cos();
-                Vector2::new(cos, sin)
-            })
-            .collect();
+        let beams = params.directions();
         Self {
             params: *params,
             faces: plan.faces().collect(),

@@ -2,6 +2,7 @@
 
 use std::f64::consts::TAU;
 
+use nalgebra::Vector2;
 use ogm_core::{ParameterError, require};
 
 /// A robot, its sensors and the seed of everything random about a pair of them.
@@ -137,7 +138,15 @@ impl LidarParams {
         }
     }
 
-    fn check(&self) -> Result<(), ParameterError> {
+    /// Unit vectors along the beams of a robot that looks along x, from right to left.
+    #[must_use]
+    pub fn directions(&self) -> Vec<Vector2<f64>> {
+        let increment = self.field_of_view / (self.beams - 1) as f64;
+        let angles = (0..self.beams).map(|beam| increment * beam as f64 - self.field_of_view / 2.0);
+        angles.map(|angle| Vector2::new(angle.cos(), angle.sin())).collect()
+    }
+
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         positive("field_of_view", self.field_of_view)?;
         require(
             self.field_of_view <= TAU,
@@ -178,7 +187,7 @@ impl Default for MappingParams {
 }
 
 impl MappingParams {
-    fn check(&self) -> Result<(), ParameterError> {
+    pub(crate) fn check(&self) -> Result<(), ParameterError> {
         positive("resolution", self.resolution)?;
         positive("occupied_update", self.occupied_update)?;
         positive("-free_update", -self.free_update)?;
@@ -197,6 +206,12 @@ pub struct TagParams {
     pub range_sigma: f64,
     /// Added to every range, metres.
     pub range_bias: f64,
+    /// Share of the readings that come by way of a wall and are longer, by up to `echo_length`.
+    pub echo_share: f64,
+    /// Most that a reflection adds to a range, metres.
+    pub echo_length: f64,
+    /// Share of the readings that are lost.
+    pub lost_share: f64,
     /// Standard deviation, per axis, of how far each robot takes each tag from its place, metres;
     /// stands for whatever makes two robots disagree about a tag.
     pub tag_position_sigma: f64,
@@ -209,6 +224,9 @@ impl Default for TagParams {
             max_range: 3.0,
             range_sigma: 0.05,
             range_bias: 0.0,
+            echo_share: 0.0,
+            echo_length: 1.5,
+            lost_share: 0.0,
             tag_position_sigma: 0.0,
         }
     }
@@ -219,6 +237,10 @@ impl TagParams {
         positive("tags.max_range", self.max_range)?;
         not_negative("tags.range_sigma", self.range_sigma)?;
         not_negative("tags.range_bias.abs()", self.range_bias.abs())?;
+        for (name, share) in [("echo_share", self.echo_share), ("lost_share", self.lost_share)] {
+            require((0.0..=1.0).contains(&share), name, "0 to 1", share)?;
+        }
+        not_negative("echo_length", self.echo_length)?;
         not_negative("tag_position_sigma", self.tag_position_sigma)
     }
 }

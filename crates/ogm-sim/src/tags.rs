@@ -105,16 +105,24 @@ pub(crate) fn read_along(
         })
         .collect();
     let mut rng = generator(seed, Stream::TagRanges, robot.0.into());
+    let mut echoes = generator(seed, Stream::TagEchoes, robot.0.into());
     let mut readings = Vec::new();
     for (position, &robot_position) in path.iter().zip(believed) {
         for &(tag_id, tag) in &displaced {
             let distance = (tag - position).norm();
             if distance <= params.max_range && distance + params.range_bias <= params.max_range {
                 let noise = params.range_sigma * within_four_sigma(&mut rng);
+                // Drawn whether or not they count, so that one share does not move the other.
+                let [lost, reflected, detour] = [0; 3].map(|_| echoes.random::<f64>());
+                if lost < params.lost_share {
+                    continue;
+                }
+                let is_echo = reflected < params.echo_share;
+                let detour = if is_echo { detour * params.echo_length } else { 0.0 };
                 readings.push(TagReading {
                     tag_id,
                     robot_position,
-                    range: (distance + params.range_bias + noise).max(0.0),
+                    range: (distance + params.range_bias + detour + noise).max(0.0),
                 });
             }
         }
@@ -197,6 +205,15 @@ mod tests {
         }
         let displaced = read(TagParams { tag_position_sigma: 0.1, ..exact });
         assert_ne!(displaced, read(exact));
+
+        let echoes = read(TagParams { echo_share: 0.3, ..exact });
+        let longer: Vec<f64> =
+            echoes.iter().zip(read(exact)).map(|(echo, exact)| echo.range - exact.range).collect();
+        assert!(longer.iter().all(|added| (0.0..1.5).contains(added)));
+        let count = longer.iter().filter(|&&added| added > 0.0).count();
+        assert!((10..30).contains(&count), "{count} of {} are echoes", longer.len());
+        let kept = read(TagParams { lost_share: 0.5, ..exact });
+        assert!((20..40).contains(&kept.len()) && kept.iter().all(|one| read(exact).contains(one)));
 
         let nan = TagParams { range_sigma: f64::NAN, ..exact };
         assert!(tag_readings(&straight(2), &tags, &nan, 1).is_err());

@@ -4,6 +4,7 @@ pub(crate) mod labelled;
 pub(crate) mod methods;
 pub(crate) mod random_walk;
 pub(crate) mod real_pairs;
+pub(crate) mod robots;
 pub(crate) mod segments;
 pub(crate) mod teams;
 pub(crate) mod wall_direction;

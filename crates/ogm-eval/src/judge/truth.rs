@@ -1,6 +1,6 @@
 //! What is true of two maps, and how sure that is.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use ogm_core::Se2;
 use ogm_sim::PairTruth;
 
@@ -37,6 +37,40 @@ impl Truth {
         }
     }
 
+    /// That of two maps that their robots' drift has bent: the rigid motion that brings places of
+    /// the source nearest to where the same places are in the target, within what it leaves. `None`
+    /// of fewer than two different places.
+    pub(crate) fn of_places(places: &[[Point2<f64>; 2]], cell: f64) -> Option<Self> {
+        let count = places.len() as f64;
+        let [target_centre, centre] = [0, 1].map(|which| {
+            let sum: Vector2<f64> = places.iter().map(|place| place[which].coords).sum();
+            Point2::from(sum / count)
+        });
+        let (mut dot, mut cross, mut squares) = (0.0, 0.0, 0.0);
+        for [target, source] in places {
+            let (target, source) = (target - target_centre, source - centre);
+            dot += source.dot(&target);
+            cross += source.perp(&target);
+            squares += source.norm_squared();
+        }
+        let is_held = squares > 0.0 && dot.hypot(cross) > 0.0;
+        let turn = Se2::new(0.0, 0.0, cross.atan2(dot));
+        let shift = target_centre - turn * centre;
+        let target_from_source = Se2::new(shift.x, shift.y, turn.theta());
+        let left = places
+            .iter()
+            .map(|[target, source]| (target - target_from_source * *source).norm_squared());
+        let residual = (left.sum::<f64>() / count).sqrt();
+        is_held.then(|| Self {
+            target_from_source,
+            centre,
+            radius: (squares / count).sqrt(),
+            cell,
+            tolerance: LABELLED.besides(residual),
+            exact: false,
+        })
+    }
+
     /// The error of a pose: root mean square over what is judged.
     pub(crate) fn error(&self, target_from_source: &Se2) -> PoseError {
         let at_centre = PoseError::at(self.centre, target_from_source, &self.target_from_source);
@@ -63,6 +97,23 @@ mod tests {
     use nalgebra::Point2;
     use ogm_core::Se2;
     use ogm_sim::PairTruth;
+
+    #[test]
+    fn places_give_back_the_motion_between_them_and_what_it_leaves() {
+        let truth = Se2::new(3.0, -2.0, 2.5);
+        let source = [[0.0, 0.0], [4.0, 1.0], [1.0, 5.0], [-2.0, 3.0]].map(Point2::from);
+        let exact = source.map(|point| [truth * point, point]);
+        let found = Truth::of_places(&exact, 0.05).unwrap();
+        let error = found.error(&truth);
+        assert!(error.displacement < 1e-12 && error.turn < 1e-12);
+        assert!((found.tolerance.displacement.metres - 0.4).abs() < 1e-12);
+        let mut bent = exact;
+        bent[0][0].x += 0.4;
+        let bent = Truth::of_places(&bent, 0.05).unwrap();
+        assert!((0.5..0.6).contains(&bent.tolerance.displacement.metres));
+        assert!(Truth::of_places(&[exact[0]; 3], 0.05).is_none());
+        assert!(Truth::of_places(&[], 0.05).is_none());
+    }
 
     #[test]
     fn the_error_over_an_area_is_that_of_the_simulator() {

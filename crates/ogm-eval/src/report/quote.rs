@@ -24,7 +24,7 @@ struct Quote {
 const QUOTES: [Quote; 2] = [
     Quote {
         marker: "results",
-        sections: &["X3", "X4", "pairs"],
+        sections: &["X3", "X4", "X8a", "pairs"],
         first_table: true,
         picture: "merge",
         path: "docs/merge.png",

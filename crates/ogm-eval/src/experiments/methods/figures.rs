@@ -9,6 +9,7 @@ use ogm_merge::{RfidParams, RobotMap, TagMethod, align_by_tags};
 use ogm_view::{crop_known, occupancy, overlay, png, side_by_side};
 use rfid_loc::{FilterParams, TagFilter};
 
+use super::worked_figures;
 use crate::cases::worlds::{Building, World};
 use crate::draw::{Heat, heat};
 use crate::report::{Figure, Image};
@@ -23,7 +24,7 @@ const GAP: u32 = 8;
 pub(super) fn draw(seed: u64) -> anyhow::Result<Vec<Figure>> {
     let world = World::simulate(Building::PlanA, seed)?;
     let (target, source) = (&world.pair.target.map, &world.pair.source.map);
-    let mut figures = vec![posterior(&world)?];
+    let mut figures = posteriors(&world)?;
     let [target_tags, source_tags] = world.displaced_tags(SIGMA_PX);
     let robots = [
         RobotMap { map: target, tags: &target_tags },
@@ -51,40 +52,48 @@ pub(super) fn draw(seed: u64) -> anyhow::Result<Vec<Figure>> {
         figures.push(merged(target, source, target_from_source)?);
         figures.push(gaps(target, source, target_from_source)?);
     }
+    figures.extend(worked_figures::draw(&world)?);
     Ok(figures)
 }
 
 /// The posterior of the tag that the target robot read most, as readings come in.
-fn posterior(world: &World) -> anyhow::Result<Figure> {
+fn posteriors(world: &World) -> anyhow::Result<Vec<Figure>> {
     let readings = &world.pair.target.readings;
     let most_read = world.target_tags.iter().max_by_key(|tag| tag.readings);
     let tag = most_read.context("plan A has tags that the target robot reads")?;
     let of_tag: Vec<&TagReading> =
         readings.iter().filter(|reading| reading.tag_id == tag.tag_id).collect();
-    let mut panels: Vec<RgbImage> = Vec::new();
     let params = FilterParams::default();
-    if let Some(first) = of_tag.first() {
-        for count in [30, 100, 200, 300] {
-            let mut filter = TagFilter::around(first.robot_position, &params)?;
-            for reading in of_tag.iter().take(count) {
-                filter.update(reading.robot_position, reading.range)?;
-            }
-            let style = Heat {
-                gamma: 0.25,
-                upscale: 2,
-                window: Some(window_around(&filter, tag.position)),
-                ..Heat::default()
-            };
-            panels.push(heat(&filter.posterior(), &style)?);
+    let first = of_tag.first().context("a tag that was read has a reading")?;
+    let after = |readings: &[&TagReading], window: bool| -> anyhow::Result<RgbImage> {
+        let mut filter = TagFilter::around(first.robot_position, &params)?;
+        for reading in readings {
+            filter.update(reading.robot_position, reading.range)?;
         }
-    }
-    Ok(Figure {
-        name: "tag-posterior".to_owned(),
-        caption: "Where a tag may be, after its first 30, 100, 200 and 300 readings; \
-                  2.4 × 2.4 m, faint values lifted."
-            .to_owned(),
-        image: Image::Png(png(&side_by_side(&panels, GAP))?),
-    })
+        let window = window.then(|| window_around(&filter, tag.position));
+        let style = Heat { gamma: 0.25, upscale: 2, window, ..Heat::default() };
+        heat(&filter.posterior(), &style)
+    };
+    let middle = of_tag[of_tag.len() / 2];
+    let rings =
+        [after(&[first], false)?, after(&[middle], false)?, after(&[first, middle], false)?];
+    let counts = [30, 100, 200, 300].map(|count| &of_tag[..count.min(of_tag.len())]);
+    let panels =
+        counts.map(|readings| after(readings, true)).into_iter().collect::<Result<Vec<_>, _>>()?;
+    Ok(vec![
+        Figure {
+            name: "tag-rings".to_owned(),
+            caption: "Where a tag may be, by one reading, by another, and by both.".to_owned(),
+            image: Image::Png(png(&side_by_side(&rings, GAP))?),
+        },
+        Figure {
+            name: "tag-posterior".to_owned(),
+            caption: "Where a tag may be, after its first 30, 100, 200 and 300 readings; \
+                      2.4 × 2.4 m, faint values lifted."
+                .to_owned(),
+            image: Image::Png(png(&side_by_side(&panels, GAP))?),
+        },
+    ])
 }
 
 /// Columns and rows of the filter's cells within 1.2 m of `place`.

@@ -3,10 +3,12 @@
 mod charts;
 mod criteria;
 mod figures;
+mod readers;
 mod record;
 mod run;
 mod tables;
 mod variants;
+mod worked_figures;
 
 use crate::cases::worlds::Building;
 use crate::measured::Measured;
@@ -45,7 +47,7 @@ match is ours and looks at the maps alone, without tags or a start, so it has on
 
 /// Runs every variant on its share of the worlds.
 pub(crate) fn measure(options: &Options) -> anyhow::Result<Measured> {
-    let (runs, timings) = run::run(options)?;
+    let run::Everything { runs, timings, believed } = run::run(options)?;
     let mut figures = charts::draw(&runs);
     figures.extend(figures::draw(options.seed)?);
     let section = Section {
@@ -58,10 +60,11 @@ pub(crate) fn measure(options: &Options) -> anyhow::Result<Measured> {
             tables::variants(&runs, Building::Random),
             tables::variants(&runs, Building::PlanA),
             tables::strangers(&runs),
+            readers::table(&runs, &believed),
             tables::failures(&runs),
         ],
         figures,
-        criteria: criteria::criteria(&runs, options.quick),
+        criteria: [criteria::criteria(&runs, options.quick), readers::criteria(&believed)].concat(),
     };
     Ok(Measured { sections: vec![section], runs, timings })
 }

@@ -7,6 +7,7 @@ use ogm_core::Se2;
 use ogm_merge::{RobotMap, align_by_tags};
 use rayon::iter::{IndexedParallelIterator, IntoParallelRefIterator, ParallelIterator};
 
+use super::readers::{self, Believed};
 use super::record::{MATCH, NEGATIVES, REGIMES, case_name, case_without_tags};
 use super::variants::{METHODS, ON_ALL_WORLDS, VARIANTS};
 use crate::cases::worlds::{Building, World};
@@ -20,8 +21,15 @@ const TOGETHER: usize = 10;
 /// Worlds of plan A, shown apart.
 const PLAN_A_WORLDS: u64 = 10;
 
+/// What the worlds gave.
+pub(super) struct Everything {
+    pub(super) runs: Vec<Run>,
+    pub(super) timings: Vec<Timing>,
+    pub(super) believed: Vec<Believed>,
+}
+
 /// Runs every variant on its share of the worlds.
-pub(super) fn run(options: &Options) -> anyhow::Result<(Vec<Run>, Vec<Timing>)> {
+pub(super) fn run(options: &Options) -> anyhow::Result<Everything> {
     let worlds = options.count(12, 200);
     let of_variants = options.runs.map_or(if options.quick { 3 } else { 50 }, |runs| runs.min(50));
     let of_plan_a = PLAN_A_WORLDS.min(options.count(3, 200));
@@ -39,18 +47,28 @@ pub(super) fn run(options: &Options) -> anyhow::Result<(Vec<Run>, Vec<Timing>)> 
                 if next.seed != world.seed && matches!(building, Building::Random) {
                     measured.0.extend(run_strangers(world, next)?);
                 }
+                let (by_readers, believed) = match building {
+                    Building::Random => readers::run(world)?,
+                    Building::PlanA => Default::default(),
+                };
+                measured.0.extend(by_readers);
                 options.watch.step();
-                Ok(measured)
+                Ok((measured.0, measured.1, believed))
             });
-            measured.extend(runs.collect::<anyhow::Result<Vec<(Vec<Run>, Vec<Timing>)>>>()?);
+            measured.extend(runs.collect::<anyhow::Result<Vec<_>>>()?);
         }
         anyhow::Ok(measured)
     };
     let random = run_worlds(Building::Random, worlds, of_variants.into())?;
     let plan_a = run_worlds(Building::PlanA, of_plan_a, of_plan_a)?;
     options.watch.end();
-    let (runs, timings): (Vec<_>, Vec<_>) = random.into_iter().chain(plan_a).unzip();
-    Ok((runs.concat(), timings.concat()))
+    let mut all = Everything { runs: Vec::new(), timings: Vec::new(), believed: Vec::new() };
+    for (runs, timings, believed) in random.into_iter().chain(plan_a) {
+        all.runs.extend(runs);
+        all.timings.extend(timings);
+        all.believed.extend(believed);
+    }
+    Ok(all)
 }
 
 /// Every method on the target of one world and the source of another.

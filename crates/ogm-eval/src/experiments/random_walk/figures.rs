@@ -1,14 +1,16 @@
 //! The figures of X5: the trend of ψ, the maps before and after, and Theorem 1.
 
+use anyhow::Context;
 use carpin_walk::{
     Budget, Drift, Params, Placement, RandomWalk, SearchBox, Walk, align, random_walk,
 };
+use ogm_core::{ClassThresholds, l1_distance};
 use ogm_sim::FloorPlan;
-use ogm_view::{enlarge, overlay, png, side_by_side};
+use ogm_view::{enlarge, occupancy, overlay, png, side_by_side};
 use rayon::iter::{IntoParallelIterator, ParallelIterator};
 
 use crate::cases::rescue::{CASES, Coverage, RescuePair};
-use crate::draw::{Chart, Mark, Series, chart};
+use crate::draw::{Chart, Heat, Mark, Series, chart, heat};
 use crate::options::Options;
 use crate::report::{Figure, Image};
 
@@ -45,8 +47,28 @@ pub(super) fn draw(options: &Options) -> anyhow::Result<Vec<Figure>> {
             image: Image::Png(png(&side_by_side(&[before?, after?], 8))?),
         });
     }
+    figures.push(distance_map(options.seed)?);
     figures.push(theorem(options)?);
     Ok(figures)
+}
+
+/// The counterparts of the paper's figures 6a, 6b and 4.
+fn distance_map(seed: u64) -> anyhow::Result<Figure> {
+    let pair = RescuePair::of(&FloorPlan::plan_a(), CASES[1].coverage, seed)?;
+    let thresholds = ClassThresholds::default();
+    let walls = pair.target.cells().map(|&cell| thresholds.is_occupied(cell));
+    let distance = l1_distance(&walls).context("the map of plan A has walls")?;
+    let style = Heat { upscale: 3, ..Heat::default() };
+    let distance = heat(&distance.map(|&cells| f64::from(cells)), &style)?;
+    let [target, source] = [&pair.target, &pair.source].map(|map| enlarge(&occupancy(map), 3));
+    Ok(Figure {
+        name: "walk-distance-map".to_owned(),
+        caption:
+            "Two robots' maps of plan A, and the distance map of the first one's walls; light \
+                  is far."
+                .to_owned(),
+        image: Image::Png(png(&side_by_side(&[target, source, distance], 8))?),
+    })
 }
 
 /// The counterpart of the paper's figure 6d.

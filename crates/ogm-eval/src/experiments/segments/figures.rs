@@ -8,6 +8,7 @@ use radon_merge::{
     WallSegment, find_transform, tune_translation, verification_index,
 };
 
+use super::histograms;
 use crate::cases::team_world::PRINTED;
 use crate::draw::{Chart, Heat, Mark, Series, chart, heat};
 use crate::report::{Figure, Image};
@@ -41,6 +42,9 @@ pub(super) fn draw(maps: &[OccupancyGrid; 3]) -> anyhow::Result<Vec<Figure>> {
                 ),
                 image: Image::Png(png(&side_by_side(&row, GAP))?),
             });
+        }
+        if let Some(featured) = stages[0].segments.get(chosen[0]) {
+            figures.extend(histograms::draw(featured)?);
         }
         let turned_target_from_source = hypothesis.turned_target_from_source;
         let poses = [

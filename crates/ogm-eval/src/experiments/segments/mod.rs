@@ -1,6 +1,7 @@
 //! X6: merging by wall segments and the Radon transform, beside Saeedi et al.
 
 mod figures;
+mod histograms;
 mod record;
 mod search;
 mod tables;

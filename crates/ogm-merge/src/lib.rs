@@ -27,7 +27,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`merge_team`] does the same for any number of maps.
+//! [`merge_team`] does the same for any number of maps. [`unbend`] makes a map straight that drift bent.
 //!
 //! The papers' methods by themselves, with the knobs and the evidence of every stage:
 //!
@@ -38,6 +38,7 @@
 //!
 //! The last argument of what may take long is an [`ogm_core::Progress`], `&()` for none.
 
+mod bend;
 mod checks;
 mod error;
 mod evidence;
@@ -66,12 +67,14 @@ mod verify;
 mod walk;
 mod warning;
 
+pub use bend::{BendParams, BendReport, BentComponent, BentMap, unbend, unbend_component};
 pub use carpin_walk::Objective as WalkObjective;
 pub use error::MergeError;
 pub use evidence::{TagEvidence, WallAgreement, WallDirection};
 pub use grid_match::{MatchParams, Prior};
 pub use grid_merge::{ConflictRegion, FusionParams, FusionRule, Merged, PlacedMap};
 pub use known::{KnownPair, KnownPoses, known_poses};
+pub use map_warp::{Warp, WarpParams};
 pub use memory::{aligning_bytes, fusing_bytes};
 pub use merge::{Component, Member, fuse, placed};
 pub use method::{Method, TagMethod};

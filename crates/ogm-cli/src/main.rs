@@ -6,6 +6,7 @@ mod align;
 mod answer;
 mod apply;
 mod args;
+mod bent;
 mod drawn;
 mod ending;
 mod html;

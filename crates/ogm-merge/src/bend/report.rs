@@ -2,7 +2,7 @@
 
 use map_warp::{Warp, warp_grid};
 use nalgebra::{Point2, Vector2};
-use ogm_core::{ClassThresholds, OccupancyGrid, Progress};
+use ogm_core::{CellIndex, ClassThresholds, OccupancyGrid, Progress};
 
 use super::held_out::Held;
 use super::params::BendParams;
@@ -79,6 +79,17 @@ impl BendReport {
     #[must_use]
     pub fn motion(&self, place: Point2<f64>) -> Vector2<f64> {
         self.warp.apply(place) - place
+    }
+
+    /// Known places of the map, one in each square of `every_m` metres, and how far each moves.
+    #[must_use]
+    pub fn motions(&self, map: &OccupancyGrid, every_m: f64) -> Vec<(Point2<f64>, Vector2<f64>)> {
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
+        let step = ((every_m / map.frame().resolution()) as usize).max(1);
+        let is_on = |at: &CellIndex| at.column % step == step / 2 && at.row % step == step / 2;
+        let known = map.cells().indexed().filter(|(at, cell)| cell.is_known() && is_on(at));
+        let places = known.map(|(at, _)| map.frame().cell_centre(at));
+        places.map(|place| (place, self.motion(place))).collect()
     }
 
     /// The map made straight, in its own frame: the pose that it lies at stays what it is.

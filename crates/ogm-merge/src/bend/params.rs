@@ -10,7 +10,7 @@ pub struct BendParams {
     /// over some metres more than that; see `docs/bend.md`.
     pub warp: WarpParams,
     /// Least standard scores by which walls that were held out of the fit must lie better than
-    /// under the rigid pose: 3, by chance one map in a thousand.
+    /// under the rigid pose: 2.5, by chance less than one map in a hundred.
     pub significance: f64,
     /// What counts as occupied and free.
     pub thresholds: ClassThresholds,
@@ -19,7 +19,7 @@ pub struct BendParams {
 impl Default for BendParams {
     fn default() -> Self {
         let warp = WarpParams { correlation_m: 8.0, ..WarpParams::default() };
-        Self { warp, significance: 3.0, thresholds: ClassThresholds::default() }
+        Self { warp, significance: 2.5, thresholds: ClassThresholds::default() }
     }
 }
 

@@ -10,7 +10,7 @@ use crate::MergeError;
 use crate::merge::Component;
 
 /// Losses of held-out walls that are left at most, of those before: less is not worth a bend.
-const WORTH: f64 = 0.95;
+const WORTH: f64 = 0.8;
 
 /// How a map is bent against another, and whether that is believed.
 #[derive(Debug, Clone)]

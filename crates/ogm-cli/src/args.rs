@@ -92,6 +92,14 @@ pub(crate) struct MergeArgs {
     /// What a cell becomes that several maps know
     #[arg(long, value_name = "RULE", value_enum, default_value_t)]
     pub(crate) fusion: Fusion,
+    /// Whether maps that drift bent are made straight before they are fused: auto where walls that
+    /// were held out say so, report only says how far they are bent. Poses stay what they are
+    /// [default: auto; off with --transform]
+    #[arg(long, value_name = "WHEN", value_enum)]
+    pub(crate) bend: Option<BendArg>,
+    /// Draws the straightened maps on each other, and how far each place was moved, enlarged
+    #[arg(long, value_name = "B.png")]
+    pub(crate) bend_picture: Option<PathBuf>,
     /// Metres a cell of the merged map [default: that of the first map]
     #[arg(long, value_name = "M", value_parser = metres)]
     pub(crate) resolution: Option<f64>,
@@ -335,6 +343,17 @@ impl From<Fusion> for FusionRule {
             Fusion::Last => Self::Last,
         }
     }
+}
+
+/// Whether bent maps are made straight.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub(crate) enum BendArg {
+    /// Where held-out walls say that it is significantly better
+    Auto,
+    /// Never
+    Off,
+    /// Never, but says what auto would do
+    Report,
 }
 
 fn probability(text: &str) -> Result<f64, String> {

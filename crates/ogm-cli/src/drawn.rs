@@ -4,7 +4,7 @@ use std::path::Path;
 
 use anyhow::Context;
 use ogm_core::{OccupancyGrid, Se2};
-use ogm_merge::{Component, FusionParams, Merged, PairReport, placed};
+use ogm_merge::{BentComponent, Component, FusionParams, Merged, PairReport, placed};
 use ogm_view::{Claimed, Named, ViewError};
 
 use crate::input::Input;
@@ -45,6 +45,37 @@ pub(crate) fn sheet(path: &Path, placed: &[(&Input, Se2)]) -> anyhow::Result<Vec
         .map(|(&(input, first_from_map), name)| Named { map: input.map(), first_from_map, name })
         .collect();
     ogm_view::overlay_sheet(&named)
+        .and_then(|picture| ogm_view::png(&picture))
+        .with_context(|| format!("cannot draw {}", path.display()))
+}
+
+/// Metres between the places whose motions are drawn.
+const MOTION_EVERY_M: f64 = 1.0;
+
+/// The straightened maps of a component on each other, and how far each place of them was moved.
+pub(crate) fn bend(path: &Path, inputs: &[Input], bent: &BentComponent) -> anyhow::Result<Vec<u8>> {
+    let maps: Vec<_> = inputs.iter().map(Input::map).collect();
+    let straight = bent.straight(&maps);
+    let names: Vec<String> = inputs.iter().map(Input::name).collect();
+    let members = bent.component.members.iter();
+    let first_from_reference = bent.component.members[0].reference_from_map.inverse();
+    let named = members.map(|member| Named {
+        map: straight[member.map],
+        first_from_map: first_from_reference * member.reference_from_map,
+        name: &names[member.map],
+    });
+    let named: Vec<Named<'_>> = named.collect();
+    let mut motions = Vec::new();
+    for bent in bent.maps.iter().filter(|bent| bent.straight.is_some()) {
+        let Some(pose) = named.iter().find(|named| std::ptr::eq(named.map, straight[bent.map]))
+        else {
+            continue;
+        };
+        let of_map = bent.report.motions(maps[bent.map], MOTION_EVERY_M);
+        let pose = pose.first_from_map;
+        motions.extend(of_map.into_iter().map(|(place, motion)| (pose * place, pose * motion)));
+    }
+    ogm_view::motion_sheet(&named, &motions)
         .and_then(|picture| ogm_view::png(&picture))
         .with_context(|| format!("cannot draw {}", path.display()))
 }

@@ -7,6 +7,7 @@ mod alignments;
 mod answer;
 mod apply;
 mod args;
+mod bent;
 mod drawn;
 mod ending;
 mod given;

@@ -7,7 +7,8 @@ use ogm_core::{Progress, Stage};
 use ogm_merge::{Component, FusionParams, Merged, Verdict, fuse};
 
 use crate::answer::SCHEMA;
-use crate::args::MergeArgs;
+use crate::args::{BendArg, MergeArgs};
+use crate::bent::{self, Straightened};
 use crate::ending::Ending;
 use crate::given::Given;
 use crate::input::Input;
@@ -45,7 +46,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     check_names(args)?;
 
     let bar = Bar::start("merging", quiet);
-    let part = Stage::new(&bar, 0.0, 0.8);
+    let part = Stage::new(&bar, 0.0, 0.7);
     let placing = match &known {
         Some(poses) => Placing::known(&inputs, poses, &args.search, &part)?,
         None => match &inputs[..] {
@@ -61,7 +62,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
             }
         },
     };
-    let made = made(&inputs, &placing.components, args, &Stage::new(&bar, 0.8, 1.0))?;
+    let made = made(&inputs, &placing.components, args, &Stage::new(&bar, 0.7, 1.0))?;
     let pictures = pictures(&inputs, &placing, made.as_ref(), args)?;
     drop(bar);
 
@@ -90,6 +91,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
         pairs: placing.pairs,
         components: placing.components.clone(),
         team: placing.team.as_ref().map(TeamAnswer::from),
+        bend: made.as_ref().map(|made| made.straightened.answers()).unwrap_or_default(),
     };
     let json = serde_json::to_string_pretty(&answer)? + "\n";
     if let Some(path) = &args.report {
@@ -104,7 +106,9 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
         || answer.pairs.iter().map(text::pair).collect(),
         |report| team::said(&inputs, report, args.overlay.is_some()),
     );
-    let said = || found + &text::merge(&answer, made.as_ref().map(|made| &made.merged), args);
+    let bent = bent::said(&answer.bend, &inputs, args.bend == Some(BendArg::Report));
+    let said =
+        || found + &bent + &text::merge(&answer, made.as_ref().map(|made| &made.merged), args);
     let text = if args.search.json { json } else { said() };
     if side_outputs(args).any(output::is_standard) {
         terminal::note(&text);
@@ -120,7 +124,8 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
 }
 
 fn pictures_asked(args: &MergeArgs) -> impl Iterator<Item = &Path> {
-    [&args.overlay, &args.conflicts, &args.provenance].into_iter().flatten().map(AsRef::as_ref)
+    let pictures = [&args.overlay, &args.conflicts, &args.provenance, &args.bend_picture];
+    pictures.into_iter().flatten().map(AsRef::as_ref)
 }
 
 /// The outputs beside the map.
@@ -160,6 +165,7 @@ fn check_names(args: &MergeArgs) -> Result<(), UsageError> {
 /// What was made of the maps.
 struct Made<'a> {
     component: &'a Component,
+    straightened: Straightened,
     params: FusionParams,
     merged: Merged,
 }
@@ -215,9 +221,14 @@ fn made<'a>(
     let maps: Vec<_> = inputs.iter().map(Input::map).collect();
     let (fusion, resolution) = (args.fusion.into(), args.resolution);
     let params = FusionParams { fusion, resolution, ..FusionParams::default() };
-    let merged = fuse(&maps, component, &params, progress)
-        .with_context(|| format!("cannot make {}", args.output.display()))?;
-    Ok(Some(Made { component, params, merged }))
+    let cannot_make = || format!("cannot make {}", args.output.display());
+    let straightening = Stage::new(progress, 0.0, 0.6);
+    let straightened =
+        Straightened::of(&maps, component, args, &straightening).with_context(cannot_make)?;
+    let (straight, placed) = (straightened.maps(&maps), straightened.component(component));
+    let merged = fuse(&straight, placed, &params, &Stage::new(progress, 0.6, 1.0))
+        .with_context(cannot_make)?;
+    Ok(Some(Made { component, straightened, params, merged }))
 }
 
 fn pictures<'a>(
@@ -252,8 +263,18 @@ fn pictures<'a>(
     }
     if let Some(path) = &args.provenance {
         let maps: Vec<_> = inputs.iter().map(Input::map).collect();
-        let png = made.map(|made| drawn::provenance(path, &maps, made.component, &made.params));
+        let png = made.map(|made| {
+            let (maps, component) =
+                (made.straightened.maps(&maps), made.straightened.component(made.component));
+            drawn::provenance(path, &maps, component, &made.params)
+        });
         let png = png.transpose()?;
+        let remark = if png.is_none() { UNMADE } else { None };
+        pictures.push(Picture { path, png, remark });
+    }
+    if let Some(path) = &args.bend_picture {
+        let png =
+            made.map(|made| drawn::bend(path, inputs, made.straightened.bent())).transpose()?;
         let remark = if png.is_none() { UNMADE } else { None };
         pictures.push(Picture { path, png, remark });
     }

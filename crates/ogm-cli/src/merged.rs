@@ -6,6 +6,7 @@ use ogm_merge::{Component, ConflictRegion, Merged, PoseDegrees};
 use serde::Serialize;
 
 use crate::answer::PairAnswer;
+use crate::bent::BendAnswer;
 use crate::input::MapFile;
 use crate::team_answer::TeamAnswer;
 
@@ -23,6 +24,9 @@ pub(crate) struct MergeAnswer {
     /// Where more than two maps were searched.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) team: Option<TeamAnswer>,
+    /// How far maps are bent, where that was looked at.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub(crate) bend: Vec<BendAnswer>,
 }
 
 /// The map that was written.

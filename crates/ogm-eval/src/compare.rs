@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::experiments::{
-    labelled, methods, random_walk, real_pairs, robots, segments, teams, wall_direction,
+    bends, labelled, methods, random_walk, real_pairs, robots, segments, teams, wall_direction,
     worked_tables,
 };
 use crate::measured::Measured;
@@ -38,6 +38,7 @@ pub fn run(options: &Options) -> anyhow::Result<Comparison> {
             ExperimentId::X7 => labelled::measure(options)?,
             ExperimentId::X8 => robots::measure(options)?,
             ExperimentId::X9 => teams::measure(options)?,
+            ExperimentId::X10 => bends::measure(options)?,
         };
         all.extend(measured);
     }
@@ -45,6 +46,9 @@ pub fn run(options: &Options) -> anyhow::Result<Comparison> {
         all.extend(real_pairs::measure(options, folder)?);
         if options.experiments.contains(&ExperimentId::X6) {
             all.extend(segments::measure_pairs(options, folder)?);
+        }
+        if options.experiments.contains(&ExperimentId::X10) {
+            all.extend(bends::measure_pairs(options, folder)?);
         }
     }
     let report = Report {

@@ -14,7 +14,8 @@ pub struct Options {
     pub experiments: Vec<ExperimentId>,
     /// First seed; run i uses seed + i.
     pub seed: u64,
-    /// Worlds of X4 and X5, teams of X8, indices of X7 and X9 and, five times as many, extractions of X3.
+    /// Worlds of X4 and X5, teams of X8, indices of X7, X9 and X10 and, five times as many,
+    /// extractions of X3.
     pub runs: Option<u32>,
     /// A few runs, judged by looser floors.
     pub quick: bool,
@@ -47,12 +48,14 @@ pub enum ExperimentId {
     X8,
     /// Teams of maps.
     X9,
+    /// Bent maps made straight.
+    X10,
 }
 
 impl ExperimentId {
     /// Every experiment, in the order of the report.
-    pub const ALL: [Self; 9] =
-        [Self::X1, Self::X2, Self::X3, Self::X4, Self::X5, Self::X6, Self::X7, Self::X8, Self::X9];
+    pub const ALL: [Self; 10] =
+        [Self::X1, Self::X2, Self::X3, Self::X4, Self::X5, Self::X6, Self::X7, Self::X8, Self::X9, Self::X10];
 
     /// Its name on a command line.
     #[must_use]
@@ -67,6 +70,7 @@ impl ExperimentId {
             Self::X7 => "x7",
             Self::X8 => "x8",
             Self::X9 => "x9",
+            Self::X10 => "x10",
         }
     }
 
@@ -90,13 +94,14 @@ impl ExperimentId {
                 "Robots that place themselves, and three that share their maps (Saeedi et al.)"
             }
             Self::X9 => "Teams of maps, pair by pair and together; only on request",
+            Self::X10 => "Bent maps made straight; only on request",
         }
     }
 
     /// Whether it runs only when asked for: it takes minutes with all its runs.
     #[must_use]
     pub fn is_on_request(self) -> bool {
-        matches!(self, Self::X5 | Self::X6 | Self::X7 | Self::X9)
+        matches!(self, Self::X5 | Self::X6 | Self::X7 | Self::X9 | Self::X10)
     }
 }
 

@@ -21,6 +21,9 @@ pub enum MergeError {
     /// The fusion.
     #[error(transparent)]
     Fusion(#[from] grid_merge::FusionError),
+    /// The deformation of a bent map.
+    #[error(transparent)]
+    Warp(#[from] map_warp::WarpError),
     /// The search for a transform.
     #[error(transparent)]
     Matching(#[from] grid_match::MatchError),
@@ -73,6 +76,7 @@ impl MergeError {
                 | Self::Walk(carpin_walk::WalkError::Cancelled(_))
                 | Self::Fusion(grid_merge::FusionError::Cancelled(_))
                 | Self::Matching(grid_match::MatchError::Cancelled(_))
+                | Self::Warp(map_warp::WarpError::Cancelled(_))
                 | Self::Graph(pose_graph2d::GraphError::Cancelled(_))
                 | Self::Radon(radon_merge::RadonError::Cancelled(_))
                 | Self::Tags(rfid_loc::TagError::Cancelled(_))

@@ -27,7 +27,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`merge_team`] does the same for any number of maps, [`MergeSession`] for maps that grow.
+//! [`merge_team`] does the same for any number of maps, [`MergeSession`] for maps that grow. [`unbend`]
+//! makes a map straight that drift bent.
 //!
 //! The papers' methods by themselves, with the knobs and the evidence of every stage:
 //!
@@ -38,6 +39,7 @@
 //!
 //! The last argument of what may take long is an [`ogm_core::Progress`], `&()` for none.
 
+mod bend;
 mod checks;
 mod error;
 mod evidence;
@@ -67,12 +69,14 @@ mod verify;
 mod walk;
 mod warning;
 
+pub use bend::{BendParams, BendReport, BentComponent, BentMap, unbend, unbend_component};
 pub use carpin_walk::Objective as WalkObjective;
 pub use error::MergeError;
 pub use evidence::{TagEvidence, WallAgreement, WallDirection};
 pub use grid_match::{MapSignature, MatchParams, PreparedMap, Prior, View, candidate_pairs};
 pub use grid_merge::{ConflictRegion, FusionParams, FusionRule, Merged, PlacedMap};
 pub use known::{KnownPair, KnownPoses, known_poses};
+pub use map_warp::{Warp, WarpParams};
 pub use memory::{aligning_bytes, fusing_bytes};
 pub use merge::{Component, Member, fuse, placed};
 pub use method::{Method, TagMethod};

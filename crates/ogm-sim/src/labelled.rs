@@ -5,6 +5,7 @@ use ogm_core::{OccupancyGrid, RobotId};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
+use crate::bend::PairBend;
 use crate::conditions::{Conditions, direction};
 use crate::draw::{Stream, generator};
 use crate::explore::{Part, explore, free_space};
@@ -12,7 +13,10 @@ use crate::navigate::FreeSpace;
 use crate::run::{bend, frame_at_start, random_heading};
 use crate::style::MapStyle;
 use crate::truth::{PairTruth, pair_truth};
-use crate::{FloorKind, FloorPlan, PairParams, RobotRun, SOURCE, SimError, TARGET, map_along_path};
+use crate::{
+    DriftParams, FloorKind, FloorPlan, PairParams, RobotRun, SOURCE, SimError, TARGET,
+    map_along_path,
+};
 
 /// Overlap of pairs that do.
 const OVERLAP: [f64; 2] = [0.15, 1.0];
@@ -50,6 +54,8 @@ pub struct LabelledPair {
     pub source: OccupancyGrid,
     /// How the maps lie on each other; `None` if they must not be merged.
     pub truth: Option<PairTruth>,
+    /// Where every place of the source lies in the target; `None` where `truth` is.
+    pub bend: Option<PairBend>,
     /// Whether both robots knew their poses and nothing moved, so that the truth is exact.
     pub exact: bool,
     /// Who made each map.
@@ -79,6 +85,21 @@ pub fn labelled_pair(
             unrelated([&plan, &other.draw(rng.random())], &conditions, &mut rng)
         }
     }?;
+    Ok(restyled(pair, conditions.styles, seed))
+}
+
+/// Draws a pair of overlapping maps as [`labelled_pair`] does, bent by `bends` (target, source;
+/// [`DriftParams::bend`](crate::DriftParams::bend)) and wrong by nothing else, so that
+/// [`LabelledPair::bend`] is exact.
+///
+/// # Errors
+/// A floor that robots cannot explore as asked for: another seed may do.
+pub fn bent_pair(kind: FloorKind, bends: [f64; 2], seed: u64) -> Result<LabelledPair, SimError> {
+    let mut rng = generator(seed, Stream::Pair, kind as u64);
+    let mut conditions = Conditions::draw(&mut rng);
+    let drift = |bend| DriftParams { bend, ..DriftParams::default() };
+    [conditions.target.drift, conditions.source.drift] = bends.map(drift);
+    let pair = overlapping(&kind.draw(rng.random()), &conditions, &mut rng)?;
     Ok(restyled(pair, conditions.styles, seed))
 }
 
@@ -114,9 +135,18 @@ impl Visit<'_> {
         Ok([run(TARGET, rng)?, run(SOURCE, rng)?])
     }
 
-    fn truth(&self, [target, source]: &[RobotRun; 2]) -> Result<Option<PairTruth>, SimError> {
-        let bends = [bend(TARGET, &self.params[0]), bend(SOURCE, &self.params[1])];
-        pair_truth(target, source, [&bends[0], &bends[1]])
+    fn bend(&self, [target, source]: &[RobotRun; 2]) -> PairBend {
+        PairBend {
+            target: bend(TARGET, &self.params[0]),
+            source: bend(SOURCE, &self.params[1]),
+            world_from_target: target.world_from_map,
+            world_from_source: source.world_from_map,
+        }
+    }
+
+    fn truth(&self, maps: &[RobotRun; 2]) -> Result<Option<PairTruth>, SimError> {
+        let PairBend { target, source, .. } = self.bend(maps);
+        pair_truth(&maps[0], &maps[1], [&target, &source])
     }
 }
 
@@ -159,7 +189,8 @@ fn overlapping(
         let overlap = truth.map_or(0.0, |truth| truth.overlap);
         let off = (overlap - wanted).abs();
         if best.as_ref().is_none_or(|(least, _)| off < *least) {
-            best = Some((off, labelled(maps, truth, conditions)));
+            let bend = truth.map(|_| visit.bend(&maps));
+            best = Some((off, LabelledPair { bend, ..labelled(maps, truth, conditions) }));
         }
         if off < NEAR {
             break;
@@ -226,8 +257,8 @@ fn labelled(
     truth: Option<PairTruth>,
     conditions: &Conditions,
 ) -> LabelledPair {
-    let drifts = conditions.target.drift != crate::DriftParams::default();
+    let drifts = [conditions.target.drift, conditions.source.drift] != [DriftParams::default(); 2];
     let exact = !drifts && conditions.moved_share == 0.0;
     let styles = [MapStyle::Plain; 2];
-    LabelledPair { target: target.map, source: source.map, truth, exact, styles }
+    LabelledPair { target: target.map, source: source.map, truth, bend: None, exact, styles }
 }

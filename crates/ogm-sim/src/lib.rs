@@ -26,6 +26,8 @@
 //!   [`map_along_path`] sends one robot along any path.
 //! - [`labelled_pair`]: two maps of floors of many kinds, overlapping or not, with the transform
 //!   that is right, to measure and to calibrate a matcher.
+//! - [`bent_pair`]: the same of floors that overlap, bent as asked for, with where every place of one
+//!   lies in the other.
 //! - [`labelled_team`]: the maps of a whole team, robots that never meet and a stranger among them.
 //! - Sensor logs: [`record_sensors`] gives what encoders, gyroscope and laser of a
 //!   differential-drive robot say along a path, and [`map_scans`] makes a map of placed scans.
@@ -65,10 +67,11 @@ mod team;
 mod truth;
 mod wander;
 
+pub use bend::{Bend, PairBend};
 pub use drive::{DriveParams, drive};
 pub use error::SimError;
 pub use floors::FloorKind;
-pub use labelled::{LabelledPair, Relation, labelled_pair};
+pub use labelled::{LabelledPair, Relation, bent_pair, labelled_pair};
 pub use labelled_team::{LabelledTeam, labelled_team};
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;

@@ -35,7 +35,7 @@ pub use palette::{
     wall_colour_name,
 };
 pub use raster::{crop_known, enlarge, occupancy, paint, png, reduce, side_by_side};
-pub use sheet::{Named, overlay_sheet};
+pub use sheet::{Named, motion_sheet, overlay_sheet};
 
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]

@@ -2,7 +2,7 @@
 
 use font8x8::UnicodeFonts;
 use image::{Rgb, RgbImage};
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use ogm_core::{OccupancyGrid, Se2};
 
 use crate::ViewError;
@@ -18,6 +18,9 @@ const LINE: u32 = 14;
 const MARGIN: u32 = 8;
 /// Pixels of a frame's axes.
 const AXIS: f64 = 28.0;
+/// Metres on the picture of the longest motion, about, and how much longer than it is at most.
+const LONGEST_M: f64 = 1.5;
+const MOST_LONGER: f64 = 50.0;
 const INK: Rgb<u8> = COMMON_WALL;
 /// As in ROS: x red, y green.
 const X_AXIS: Rgb<u8> = Rgb([204, 0, 44]);
@@ -57,13 +60,27 @@ fn tail(name: &str, letters: usize) -> String {
 /// # Errors
 /// Those of [`overlay_all`](crate::overlay_all()).
 pub fn overlay_sheet(maps: &[Named<'_>]) -> Result<RgbImage, ViewError> {
+    motion_sheet(maps, &[])
+}
+
+/// [`overlay_sheet`] with motions of places, each a place in the frame of the first map and how far
+/// it was moved, metres: lines that end with a dot where the place went, so much longer than they
+/// are that the longest has about a metre and a half, at most fifty times; the legend says how much.
+///
+/// # Errors
+/// Those of [`overlay_all`](crate::overlay_all()).
+pub fn motion_sheet(
+    maps: &[Named<'_>],
+    motions: &[(Point2<f64>, Vector2<f64>)],
+) -> Result<RgbImage, ViewError> {
     let placed: Vec<_> = maps.iter().map(|map| (map.map, map.first_from_map)).collect();
     let overlay = placed_overlay(&placed)?;
     let longer = overlay.image.width().max(overlay.image.height());
     let enlarged = (SMALLEST / longer).max(1);
     let picture = enlarge(&overlay.image, enlarged);
     let width = picture.width().max(SMALLEST / 2);
-    let lines = u32::try_from(maps.len()).unwrap_or(u32::MAX - 2).saturating_add(2);
+    let extra = if motions.is_empty() { 2 } else { 3 };
+    let lines = u32::try_from(maps.len()).unwrap_or(u32::MAX - extra).saturating_add(extra);
     let height = picture.height() + 2 * MARGIN + lines * LINE;
     let mut sheet = RgbImage::from_pixel(width, height, BLANK);
     image::imageops::replace(&mut sheet, &picture, 0, 0);
@@ -82,6 +99,16 @@ pub fn overlay_sheet(maps: &[Named<'_>]) -> Result<RgbImage, ViewError> {
         write(&mut sheet, [at[0] + 3.0, at[1] + 3.0].map(whole), &letter(place), INK);
     }
 
+    let longest = motions.iter().map(|(_, motion)| motion.norm()).fold(0.0, f64::max);
+    let longer =
+        if longest > 0.0 { (LONGEST_M / longest).floor().clamp(1.0, MOST_LONGER) } else { 1.0 };
+    for (place, motion) in motions {
+        let pixel = |point: Point2<f64>| overlay.pixel_of(point).map(|at| at * f64::from(enlarged));
+        let end = pixel(place + motion * longer);
+        line(&mut sheet, pixel(*place), end, X_AXIS);
+        fill(&mut sheet, end.map(|at| whole(at).saturating_sub(1)), [4, 4], X_AXIS);
+    }
+
     let top = picture.height() + MARGIN;
     let letters = usize::try_from(width.saturating_sub(2 * MARGIN) / LETTER).unwrap_or(0);
     let named = |(place, map): (usize, &Named<'_>)| {
@@ -90,6 +117,9 @@ pub fn overlay_sheet(maps: &[Named<'_>]) -> Result<RgbImage, ViewError> {
     };
     let mut legend: Vec<_> = maps.iter().enumerate().map(named).collect();
     legend.push((COMMON_WALL, "walls of several".to_owned()));
+    if !motions.is_empty() {
+        legend.push((X_AXIS, format!("motions, {longer:.0} x; most {longest:.2} m")));
+    }
     for (row, (colour, text)) in (0..).zip(legend) {
         let y = top + row * LINE;
         fill(&mut sheet, [MARGIN, y], [LETTER, LETTER], colour);

@@ -1,5 +1,6 @@
 //! The experiments, one folder each: what it keeps, how it runs, what it shows, what it must show.
 
+pub(crate) mod bends;
 pub(crate) mod labelled;
 pub(crate) mod methods;
 pub(crate) mod random_walk;

@@ -1,0 +1,180 @@
+//! A bent map made straight: motions of patches and a smooth deformation, in turns, believed where
+//! walls that were held out of the fit say so.
+
+mod held_out;
+mod params;
+mod patch;
+mod report;
+mod walls;
+
+use std::collections::BTreeMap;
+
+use map_warp::{Motion, Warp};
+use nalgebra::Point2;
+use ogm_core::{OccupancyGrid, Progress, Se2, Stage};
+
+use crate::MergeError;
+use crate::merge::Component;
+
+use self::held_out::{Held, half, scale};
+use self::walls::{Wall, Walls, square};
+
+pub use self::params::BendParams;
+pub use self::report::{BendReport, BentComponent, BentMap};
+
+/// Sides of the patches, how far they look for walls, and how often at most, coarse to fine,
+/// metres: a drift that grows along a building is followed from room to room.
+const STAGES: [(f64, f64, usize); 4] =
+    [(5.0, 0.8, 8), (4.0, 0.5, 5), (3.0, 0.35, 3), (3.0, 0.2, 3)];
+/// Most patches: larger maps get larger ones, for the system of all is dense.
+const MOST_PATCHES: usize = 150;
+/// Settled when no wall moves by more than this share of a cell.
+const SETTLED_CELLS: f64 = 0.1;
+
+/// Bends `source`, which lies on `target` at `target_from_source`, so that its walls lie on those
+/// of `target` as far as drift can have moved them.
+///
+/// Patches of the source follow the walls of the target; a smooth deformation without folds
+/// ([`Warp`]) is fitted to their motions, and from where it puts them they follow again, first in
+/// patches the size of a hall, then of a room. The same is done twice with one half of the walls,
+/// squares of a chessboard of 1 m; what the other half then says decides whether the bend is
+/// believed ([`BendReport::is_borne_out`]). The pose stays what it is: the deformation leads from
+/// the source map to the same frame.
+///
+/// # Errors
+/// A pose or parameter that cannot be meant, or a call that was cancelled. Maps with too little in
+/// common are a report that is not borne out.
+pub fn unbend(
+    target: &OccupancyGrid,
+    source: &OccupancyGrid,
+    target_from_source: &Se2,
+    params: &BendParams,
+    progress: &dyn Progress,
+) -> Result<BendReport, MergeError> {
+    params.check()?;
+    target_from_source.check_finite()?;
+    let target = Walls::new(target, &target_from_source.inverse(), &params.thresholds);
+    onto(&target, source, params, progress)
+}
+
+/// Makes the maps of a component straight, the first of its members being so: each of the others is
+/// bent ([`unbend`]) onto the first and those before it, as they are after it. What is not borne out
+/// stays as it is.
+///
+/// # Errors
+/// A component that names a map which is not in `maps`, a pose or parameter that cannot be meant, or
+/// a call that was cancelled.
+pub fn unbend_component(
+    maps: &[&OccupancyGrid],
+    component: &Component,
+    params: &BendParams,
+    progress: &dyn Progress,
+) -> Result<BentComponent, MergeError> {
+    params.check()?;
+    let mut bent = BentComponent { component: component.clone(), maps: Vec::new() };
+    let [first, others @ ..] = &component.members[..] else { return Ok(bent) };
+    let map = |index: usize| {
+        let map = maps.get(index).copied();
+        map.ok_or(MergeError::NoSuchMap { map: index, maps: maps.len() })
+    };
+    let thresholds = &params.thresholds;
+    let mut straight = vec![Walls::new(map(first.map)?, &first.reference_from_map, thresholds)];
+    for (place, member) in others.iter().enumerate() {
+        let source = map(member.map)?;
+        member.reference_from_map.check_finite()?;
+        let map_from_reference = member.reference_from_map.inverse();
+        let target = Walls::united(straight.iter().map(|walls| walls.moved(&map_from_reference)));
+        let share = |place: usize| place as f64 / others.len() as f64;
+        let progress = Stage::new(progress, share(place), share(place + 1));
+        let report = onto(&target, source, params, &Stage::new(&progress, 0.0, 0.8))?;
+        let map = report.is_borne_out.then(|| {
+            bent.component.members[place + 1].bend_m = report.sigma_m;
+            report.straightened(source, &Stage::new(&progress, 0.8, 1.0))
+        });
+        let map = map.transpose()?;
+        let walls = map.as_ref().unwrap_or(source);
+        straight.push(Walls::new(walls, &member.reference_from_map, thresholds));
+        bent.maps.push(BentMap { map: member.map, report, straight: map });
+    }
+    Ok(bent)
+}
+
+/// [`unbend`] onto walls in the frame of the source.
+fn onto(
+    target: &Walls,
+    source: &OccupancyGrid,
+    params: &BendParams,
+    progress: &dyn Progress,
+) -> Result<BendReport, MergeError> {
+    let source = Walls::new(source, &Se2::identity(), &params.thresholds);
+    let fit = |walls: Vec<Wall>, from: f64, to: f64| {
+        let progress = Stage::new(progress, from, to);
+        Fit { target, walls, params, cell: source.resolution }.run(&progress)
+    };
+    let halves = [0, 1].map(|which| {
+        source.points.iter().filter(|wall| half(wall.at) == which).copied().collect::<Vec<_>>()
+    });
+    let mut held = Held::default();
+    let scale = scale(target, &source);
+    for (which, share) in [(0, 0.0), (1, 0.3)] {
+        let (warp, _) = fit(halves[which].clone(), share, share + 0.3)?;
+        held.add(target, halves[1 - which].iter(), &warp, scale);
+    }
+    let (warp, patches) = fit(source.points.clone(), 0.6, 1.0)?;
+    let walls: Vec<Point2<f64>> = source.points.iter().map(|wall| wall.at).collect();
+    Ok(BendReport::new(warp, patches, &held, &walls, params))
+}
+
+struct Fit<'a> {
+    target: &'a Walls,
+    /// Of the source.
+    walls: Vec<Wall>,
+    params: &'a BendParams,
+    /// Metres a cell of the source.
+    cell: f64,
+}
+
+impl Fit<'_> {
+    /// The deformation, and how many patches it is fitted to.
+    fn run(&self, progress: &dyn Progress) -> Result<(Warp, usize), MergeError> {
+        let mut warp = Warp::fit(&[], &self.params.warp)?;
+        let mut followed = 0;
+        let mut places: Vec<Point2<f64>> = self.walls.iter().map(|wall| wall.at).collect();
+        for (stage, &(side, reach, rounds)) in STAGES.iter().enumerate() {
+            let patches = self.patches(side);
+            for round in 0..rounds {
+                let share = round as f64 / rounds as f64;
+                progress.go_on((stage as f64 + share) / STAGES.len() as f64)?;
+                let follow = |patch: &Vec<Wall>| patch::motion(self.target, &warp, patch, reach);
+                let motions: Vec<Motion> = patches.iter().filter_map(follow).collect();
+                followed = motions.len();
+                warp = Warp::fit(&motions, &self.params.warp)?;
+                let moved: Vec<Point2<f64>> =
+                    self.walls.iter().map(|wall| warp.apply(wall.at)).collect();
+                let steps =
+                    places.iter().zip(&moved).map(|(before, after)| (after - before).norm());
+                let farthest = steps.fold(0.0, f64::max);
+                places = moved;
+                if farthest <= SETTLED_CELLS * self.cell {
+                    break;
+                }
+            }
+        }
+        Ok((warp, followed))
+    }
+
+    /// The walls by squares of `side` metres, or larger ones where these are too many.
+    fn patches(&self, side: f64) -> Vec<Vec<Wall>> {
+        let mut side = side;
+        loop {
+            let mut patches: BTreeMap<[i64; 2], Vec<Wall>> = BTreeMap::new();
+            for wall in &self.walls {
+                patches.entry(square(wall.at.coords, side)).or_default().push(*wall);
+            }
+            if patches.len() <= MOST_PATCHES {
+                return patches.into_values().collect();
+            }
+            side *= 1.2;
+        }
+    }
+}

@@ -43,6 +43,8 @@ mod map;
 mod png;
 mod pnm;
 mod raster;
+#[cfg(feature = "ros")]
+pub mod ros;
 mod size;
 mod tag_columns;
 mod tags;

@@ -27,6 +27,8 @@
 #![expect(clippy::disallowed_methods, reason = "files are what this crate is for")]
 
 mod allocate;
+#[cfg(feature = "bags")]
+mod bag;
 mod bounded;
 mod classify;
 mod codec;
@@ -54,6 +56,10 @@ mod text;
 mod warning;
 mod write;
 
+#[cfg(feature = "bags")]
+pub use bag::{
+    BagError, BagMap, BagMessage, BagTopic, BagWriter, OCCUPANCY_GRID_DEFINITION, TopicId, read_bag,
+};
 pub use classify::ReadOptions;
 pub use error::{IoError, MapImageError, TagLogError, YamlError};
 pub use file::write_file;

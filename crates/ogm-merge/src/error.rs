@@ -46,6 +46,15 @@ pub enum MergeError {
         /// How many maps.
         maps: usize,
     },
+    /// A robot that a session was never told of.
+    #[error("no robot '{name}' in this session")]
+    NoSuchRobot {
+        /// What it was called.
+        name: String,
+    },
+    /// Saved data that is no session.
+    #[error(transparent)]
+    Resume(#[from] crate::session::ResumeError),
     /// A parameter outside its range.
     #[error(transparent)]
     Parameter(#[from] ParameterError),

@@ -27,7 +27,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`merge_team`] does the same for any number of maps.
+//! [`merge_team`] does the same for any number of maps, [`MergeSession`] for maps that grow.
 //!
 //! The papers' methods by themselves, with the knobs and the evidence of every stage:
 //!
@@ -57,6 +57,7 @@ mod resolution;
 mod robot_map;
 mod schedule;
 mod segments;
+mod session;
 mod stop;
 mod straighten;
 mod tagged;
@@ -83,6 +84,10 @@ pub use report::{Hypothesis, PairReport, Stages, Verdict};
 pub use rfid_loc::{FilterParams, localise};
 pub use robot_map::RobotMap;
 pub use segments::{TeamMerge, align_by_radon, merge_by_radon};
+pub use session::{
+    Because, Change, ChangeKind, MergeSession, Placement, ResumeError, RobotPrior, RobotState,
+    SavedSession, SessionParams,
+};
 pub use straighten::{Straightening, straighten};
 pub use tagged::{TagReport, align_by_tags};
 pub use team::{Join, KnownPose, TeamPair, TeamParams, TeamReport, merge_team};

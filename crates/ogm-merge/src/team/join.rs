@@ -3,7 +3,8 @@
 
 use std::collections::BTreeMap;
 
-use ogm_core::{ClassThresholds, Progress};
+use grid_match::MatchParams;
+use ogm_core::Progress;
 
 use super::link::{Evidences, Link};
 use super::parallel::map_in_order;
@@ -12,7 +13,7 @@ use super::place::placed;
 use super::report::Join;
 use crate::MergeError;
 
-/// Joins `parts` as far as the evidence goes.
+/// Joins `parts` as far as the evidence goes, beginning with those that are open.
 ///
 /// Two maps that overlap each other show a third the same alias, so that their agreement is no
 /// second witness: evidence is counted once, on the groups laid together, and every join is
@@ -20,13 +21,17 @@ use crate::MergeError;
 pub(crate) fn join(
     mut parts: Vec<Option<Part>>,
     evidences: &Evidences<'_>,
-    accept: f64,
-    thresholds: &ClassThresholds,
+    matching: &MatchParams,
+    is_open: &dyn Fn(&Part, &Part) -> bool,
     progress: &dyn Progress,
 ) -> Result<(Vec<Part>, Vec<Join>), MergeError> {
     let mut links: BTreeMap<(usize, usize), Link> = BTreeMap::new();
-    let mut open: Vec<(usize, usize)> =
-        (0..parts.len()).flat_map(|a| (a + 1..parts.len()).map(move |b| (a, b))).collect();
+    let all = (0..parts.len()).flat_map(|a| (a + 1..parts.len()).map(move |b| (a, b)));
+    let is_open = |&(a, b): &(usize, usize)| match (&parts[a], &parts[b]) {
+        (Some(first), Some(second)) => is_open(first, second),
+        _ => false,
+    };
+    let mut open: Vec<(usize, usize)> = all.filter(is_open).collect();
     let mut joins = Vec::new();
     let count = parts.len().max(1);
     loop {
@@ -40,7 +45,7 @@ pub(crate) fn join(
                 links.insert(key, link);
             }
         }
-        let Some((key, link)) = best(&links, accept) else { break };
+        let Some((key, link)) = best(&links, matching.accept) else { break };
         links.remove(&key);
         let (a, b) = key;
         let [Some(first), Some(second)] = [&parts[a], &parts[b]] else { continue };
@@ -58,7 +63,7 @@ pub(crate) fn join(
         let reference = members[0].0;
         let places = placed(&members, evidences.pairs, evidences.prepared, reference)?;
         let members = places.iter().map(|place| (place.map, place.reference_from_map)).collect();
-        parts[a] = Some(Part::of(members, evidences.prepared, thresholds)?);
+        parts[a] = Some(Part::of(members, evidences.prepared, &matching.thresholds)?);
         parts[b] = None;
         links.retain(|&(first, second), _| ![a, b].contains(&first) && ![a, b].contains(&second));
         let others = (0..parts.len()).filter(|&other| other != a && parts[other].is_some());

@@ -17,11 +17,12 @@ use ogm_core::{Outcome, Progress, Refusal, Se2, Stage};
 use crate::merge::{Component, Member};
 use crate::{MergeError, RobotMap};
 
-use self::join::join;
-use self::link::Evidences;
-use self::pairs::{given, matched, prepared};
-use self::part::Part;
-use self::place::{Place, agreeing, placed};
+pub(crate) use self::join::join;
+pub(crate) use self::link::{Evidences, contradicts};
+pub(crate) use self::pairs::{Matched, Proposal, given, matched, prepared};
+pub(crate) use self::part::Part;
+pub(crate) use self::place::{Place, agreeing, placed};
+pub(crate) use self::report::probability_between;
 
 pub use self::params::{KnownPose, TeamParams};
 pub use self::report::{Join, TeamPair, TeamReport};
@@ -50,20 +51,22 @@ pub fn merge_team(
     let copies = copies(maps, params.reference);
     let is_copy = |map: usize| copies.iter().any(|(copy, _)| *copy == map);
     let originals: Vec<usize> = (0..maps.len()).filter(|&map| !is_copy(map)).collect();
-    let prepared = prepared(maps, params, &Stage::new(progress, 0.0, PREPARED))?;
+    let thresholds = &params.align.matching.thresholds;
+    let prepared = prepared(maps, thresholds, &Stage::new(progress, 0.0, PREPARED))?;
     let all: Vec<(usize, usize)> = originals
         .iter()
         .enumerate()
         .flat_map(|(index, &a)| originals[index + 1..].iter().map(move |&b| (a, b)))
         .collect();
-    let open: Vec<_> =
-        all.iter().copied().filter(|&(a, b)| given(params, a, b).is_none()).collect();
+    let known = |map: usize| params.known(map);
+    let is_open = |&(a, b): &(usize, usize)| given(known(a), known(b)).is_none();
+    let open: Vec<_> = all.iter().copied().filter(is_open).collect();
     let matching = Stage::new(progress, PREPARED, MATCHED);
-    let pairs = matched(maps, &prepared, &open, params, &matching)?;
+    let found = matched(maps, &prepared, &open, &params.align, &known, &matching)?;
+    let (pairs, reports): (Vec<_>, Vec<_>) = found.into_iter().unzip();
 
     let matching = &params.align.matching;
     let evidences = Evidences { prepared: &prepared, pairs: &pairs, repeats: matching.repeats };
-    let thresholds = &matching.thresholds;
     let is_given = |map: usize| params.known(map).filter(|known| known.is_given());
     let known = originals.iter().filter_map(|&map| Some((map, is_given(map)?.reference_from_map)));
     let known: Vec<(usize, Se2)> = known.collect();
@@ -75,7 +78,7 @@ pub fn merge_team(
     let alone = originals.iter().copied().filter(|&map| !is_known(map));
     parts.extend(alone.map(|map| Some(Part::alone(map))));
     let joining = Stage::new(progress, MATCHED, 1.0);
-    let (parts, joins) = join(parts, &evidences, matching.accept, thresholds, &joining)?;
+    let (parts, joins) = join(parts, &evidences, matching, &|_, _| true, &joining)?;
 
     let mut components = Vec::with_capacity(parts.len());
     for part in &parts {
@@ -88,18 +91,18 @@ pub fn merge_team(
         let first = component.members.iter().map(|member| member.map).min();
         (Reverse(component.pose(params.reference).is_some()), first)
     });
-    let mut matched = pairs.into_iter().peekable();
+    let mut matched = pairs.into_iter().zip(reports).peekable();
     let pairs = all.into_iter().map(|(target, source)| {
         let target_from_source = components
             .iter()
             .find_map(|component| Some(component.pose(target)?.between(&component.pose(source)?)));
-        let found = matched.next_if(|pair| (pair.target, pair.source) == (target, source));
+        let found = matched.next_if(|(pair, _)| (pair.target, pair.source) == (target, source));
         let centre = prepared[source].centre();
         let hypothesis = found
             .as_ref()
             .zip(target_from_source)
-            .and_then(|(pair, pose)| agreeing(pair, &pose, centre));
-        let report = found.map(|pair| pair.report);
+            .and_then(|((pair, _), pose)| agreeing(pair, &pose, centre));
+        let report = found.map(|(_, report)| report);
         TeamPair { target, source, report, target_from_source, hypothesis }
     });
     let pairs = pairs.collect();

@@ -4,11 +4,11 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use grid_match::{MatchParams, PreparedMap, Prior, match_prepared};
 use nalgebra::Matrix3;
-use ogm_core::{Progress, RelativePose, Se2, Stage, Steps};
+use ogm_core::{ClassThresholds, Progress, RelativePose, Se2, Stage, Steps};
 
 use super::parallel::map_in_order;
-use super::params::{KnownPose, TeamParams};
-use crate::{MergeError, Method, PairReport, RobotMap, align_pair};
+use super::params::KnownPose;
+use crate::{AlignParams, MergeError, Method, PairReport, RobotMap, align_pair};
 
 /// Standard deviations of a pose by a method that says nothing about them, metres and radians.
 const UNSTATED: [f64; 2] = [0.1, 0.02];
@@ -29,12 +29,11 @@ pub(crate) struct Proposal {
 pub(crate) struct Matched {
     pub(crate) target: usize,
     pub(crate) source: usize,
-    pub(crate) report: PairReport,
     pub(crate) proposals: Vec<Proposal>,
 }
 
 impl Matched {
-    pub(crate) fn new(target: usize, source: usize, report: PairReport) -> Self {
+    pub(crate) fn new(target: usize, source: usize, report: &PairReport) -> Self {
         let bends = report.stages.matching.as_ref().map(|found| &found.hypotheses[..]);
         let bend_m = |index: usize| {
             bends.and_then(|bends| bends.get(index)).map_or(0.0, |found| found.bend.rms_m)
@@ -57,17 +56,16 @@ impl Matched {
             }
         };
         let proposals = report.hypotheses.iter().enumerate().map(propose).collect();
-        Self { target, source, report, proposals }
+        Self { target, source, proposals }
     }
 }
 
 /// Makes every map ready for matching.
 pub(crate) fn prepared(
     maps: &[RobotMap<'_>],
-    params: &TeamParams,
+    thresholds: &ClassThresholds,
     progress: &dyn Progress,
 ) -> Result<Vec<PreparedMap>, MergeError> {
-    let thresholds = &params.align.matching.thresholds;
     let done = Steps::new(progress, maps.len());
     let prepare = |map: &RobotMap<'_>| {
         let prepared = PreparedMap::new(map.map, thresholds, &())?;
@@ -78,30 +76,32 @@ pub(crate) fn prepared(
 }
 
 /// Matches the pairs, as many at once as there are threads: no more memory is held than the
-/// prepared maps and what one search a thread takes.
+/// prepared maps and what one search a thread takes. `known` says what is known about where a map
+/// lies.
 pub(crate) fn matched(
     maps: &[RobotMap<'_>],
     prepared: &[PreparedMap],
     pairs: &[(usize, usize)],
-    params: &TeamParams,
+    align: &AlignParams,
+    known: &(impl Fn(usize) -> Option<KnownPose> + Sync),
     progress: &dyn Progress,
-) -> Result<Vec<Matched>, MergeError> {
+) -> Result<Vec<(Matched, PairReport)>, MergeError> {
     let done = AtomicUsize::new(0);
     let of_pair = |&(target, source): &(usize, usize)| {
         progress.go_on(done.load(Ordering::Relaxed) as f64 / pairs.len() as f64)?;
-        let prior = prior(params.known(target), params.known(source));
+        let prior = prior(known(target), known(source));
         let has_tags = [target, source].iter().all(|&map| !maps[map].tags.is_empty());
         let silent = Quiet(progress);
         let report = if has_tags {
-            let align = crate::AlignParams { prior, ..params.align.clone() };
+            let align = AlignParams { prior, ..align.clone() };
             align_pair(Method::Auto, &maps[target], &maps[source], &align, &silent)?
         } else {
-            let matching = MatchParams { prior, ..params.align.matching.clone() };
+            let matching = MatchParams { prior, ..align.matching.clone() };
             let found = match_prepared(&prepared[target], &prepared[source], &matching, &silent)?;
-            PairReport::of_match(found, params.align.seed)
+            PairReport::of_match(found, align.seed)
         };
         done.fetch_add(1, Ordering::Relaxed);
-        Ok(Matched::new(target, source, report))
+        Ok((Matched::new(target, source, &report), report))
     };
     let found = map_in_order(pairs, of_pair).into_iter().collect();
     Stage::new(progress, 0.0, 1.0).report(1.0);
@@ -133,8 +133,7 @@ fn prior(target: Option<KnownPose>, source: Option<KnownPose>) -> Option<Prior> 
 }
 
 /// The pose of one map in another where both were given.
-pub(crate) fn given(params: &TeamParams, target: usize, source: usize) -> Option<Se2> {
-    let [target, source] = [target, source].map(|map| params.known(map));
+pub(crate) fn given(target: Option<KnownPose>, source: Option<KnownPose>) -> Option<Se2> {
     let (target, source) = (target?, source?);
     (target.is_given() && source.is_given())
         .then(|| target.reference_from_map.between(&source.reference_from_map))

@@ -39,17 +39,22 @@ impl TeamReport {
         if a == b {
             return Some(1.0);
         }
-        let joined = |join: &&Join| {
-            let has = |map: usize| [join.first.contains(&map), join.second.contains(&map)];
-            has(a) == [true, false] && has(b) == [false, true]
-                || has(a) == [false, true] && has(b) == [true, false]
-        };
         let together =
             |component: &Component| [a, b].iter().all(|&map| component.pose(map).is_some());
         // Maps that no join brought together were given so.
         let given = || self.components.iter().any(together).then_some(1.0);
-        self.joins.iter().find(joined).map(|join| join.probability).or_else(given)
+        probability_between(&self.joins, a, b).or_else(given)
     }
+}
+
+/// Probability of the join that brought two maps together; `None` if none of these did.
+pub(crate) fn probability_between(joins: &[Join], a: usize, b: usize) -> Option<f64> {
+    let joined = |join: &&Join| {
+        let has = |map: usize| [join.first.contains(&map), join.second.contains(&map)];
+        has(a) == [true, false] && has(b) == [false, true]
+            || has(a) == [false, true] && has(b) == [true, false]
+    };
+    joins.iter().find(joined).map(|join| join.probability)
 }
 
 /// A pair of maps in its team.

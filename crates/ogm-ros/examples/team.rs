@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use ogm_core::RobotId;
 use ogm_io::ros::{Header, OccupancyGridMessage, to_cdr};
 use ogm_sim::{
-    FloorKind, LidarParams, MappingParams, PairParams, TeamMember, map_along_path, simulate_team,
+    FloorPlan, LidarParams, MappingParams, PairParams, TeamMember, map_along_path, simulate_team,
 };
 
 /// Share of the time that the drive takes; then the robots stand.
@@ -23,7 +23,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     };
     let (folder, robots) = (PathBuf::from(folder), robots.parse::<usize>()?);
     let (seconds, seed) = (seconds.parse::<usize>()?, seed.parse::<u64>()?);
-    let plan = FloorKind::Offices.draw(seed);
+    let plan = FloorPlan::random(seed)?;
     let lidar = LidarParams { beams: 181, ..LidarParams::rf() };
     let mapping = MappingParams { resolution: 0.05, ..MappingParams::default() };
     let params = PairParams { seed, lidar, mapping, step: 0.1, ..PairParams::default() };

@@ -27,8 +27,8 @@ type File = BTreeMap<String, NodeParameters>;
 
 #[derive(Debug, Deserialize)]
 struct NodeParameters {
-    #[serde(default)]
-    ros__parameters: BTreeMap<String, Value>,
+    #[serde(default, rename = "ros__parameters")]
+    parameters: BTreeMap<String, Value>,
 }
 
 #[derive(Debug, Clone, Deserialize)]
@@ -91,7 +91,7 @@ impl Config {
         let file: File = serde_saphyr::from_str(&text)?;
         let mut poses: BTreeMap<String, [f64; 3]> = BTreeMap::new();
         let mut are_known = true;
-        for (key, value) in file.into_values().flat_map(|node| node.ros__parameters) {
+        for (key, value) in file.into_values().flat_map(|node| node.parameters) {
             match (key.as_str(), value) {
                 ("robot_map_topic", Value::Text(text)) => self.robot_map_topic = text,
                 ("robot_namespace", Value::Text(text)) => self.robot_namespace = text,

@@ -61,6 +61,15 @@ pub enum IoError {
         /// What is wrong with it.
         cause: TagLogError,
     },
+    /// The bag, or the map in it.
+    #[cfg(feature = "bags")]
+    #[error("{}: {cause}", path.display())]
+    Bag {
+        /// The bag.
+        path: PathBuf,
+        /// What is wrong with it.
+        cause: crate::BagError,
+    },
     /// Cancelled while writing; what was there is as it was.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

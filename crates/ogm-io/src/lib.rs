@@ -27,6 +27,8 @@
 #![expect(clippy::disallowed_methods, reason = "files are what this crate is for")]
 
 mod allocate;
+#[cfg(feature = "bags")]
+mod bag;
 mod bounded;
 mod classify;
 mod codec;
@@ -43,6 +45,8 @@ mod map;
 mod png;
 mod pnm;
 mod raster;
+#[cfg(feature = "ros")]
+pub mod ros;
 mod size;
 mod tag_columns;
 mod tags;
@@ -52,6 +56,10 @@ mod text;
 mod warning;
 mod write;
 
+#[cfg(feature = "bags")]
+pub use bag::{
+    BagError, BagMap, BagMessage, BagTopic, BagWriter, OCCUPANCY_GRID_DEFINITION, TopicId, read_bag,
+};
 pub use classify::ReadOptions;
 pub use error::{IoError, MapImageError, TagLogError, YamlError};
 pub use file::write_file;

@@ -11,6 +11,12 @@ use crate::bounded::read_at_most;
 use crate::format::Format;
 use crate::lock::is_locked;
 use crate::{IoError, MapHeader, MapSize, MapWarning, ReadOptions, YamlError};
+#[cfg(feature = "bags")]
+use crate::{
+    BagError, BagMap, MapMode,
+    bag::read_message,
+    ros::{MessageError, OccupancyGridMessage, from_cdr},
+};
 
 /// A map YAML has seven keys; 64 KiB of them are something else.
 const MAX_YAML_BYTES: u64 = 1 << 16;
@@ -46,17 +52,25 @@ pub struct MapFiles {
     image: PathBuf,
     image_bytes: Vec<u8>,
     warnings: Vec<MapWarning>,
+    /// The bytes are those of a message.
+    #[cfg(feature = "bags")]
+    is_message: bool,
 }
 
 impl MapFiles {
     /// The YAML file `yaml` and its image, of the same moment: a pair that is replaced in between
     /// is read again.
     ///
-    /// An image that is not where the YAML says is looked for beside it, by its name.
+    /// An image that is not where the YAML says is looked for beside it, by its name. With the feature
+    /// `bags`, `yaml` may name a map of a bag, as in `team.mcap:/robot1/map@12.5`.
     ///
     /// # Errors
-    /// A file that cannot be opened, a YAML that [`MapHeader::parse`] refuses.
+    /// A file that cannot be opened, a YAML that [`MapHeader::parse`] refuses, a bag without that map.
     pub fn read(yaml: &Path) -> Result<Self, IoError> {
+        #[cfg(feature = "bags")]
+        if let Some(map) = BagMap::parse(yaml).filter(|_| !yaml.exists()) {
+            return Self::in_bag(&map);
+        }
         let (mut before, mut absences) = (None, 0);
         for _ in 0..ATTEMPTS {
             let read = before.as_deref().map(|text| Self::behind(yaml, text));
@@ -94,6 +108,23 @@ impl MapFiles {
             image_bytes: read_at_most(image, MAX_IMAGE_BYTES)
                 .map_err(|cause| access(image, cause))?,
             warnings: vec![MapWarning::NoYaml { occupied_thresh, free_thresh }],
+            #[cfg(feature = "bags")]
+            is_message: false,
+        })
+    }
+
+    #[cfg(feature = "bags")]
+    fn in_bag(map: &BagMap) -> Result<Self, IoError> {
+        let image_bytes = read_message(map)?;
+        let frame = *of_message(&map.bag, &image_bytes)?.frame();
+        let mut header = MapHeader::without_yaml(map.bag.clone(), frame);
+        header.mode = MapMode::Raw;
+        Ok(Self {
+            header,
+            image: map.bag.clone(),
+            image_bytes,
+            warnings: Vec::new(),
+            is_message: true,
         })
     }
 
@@ -103,6 +134,13 @@ impl MapFiles {
     /// # Errors
     /// As [`read`](Self::read), and an image that has no size.
     pub fn size(yaml: &Path) -> Result<(MapSize, GridFrame), IoError> {
+        #[cfg(feature = "bags")]
+        if let Some(map) = BagMap::parse(yaml).filter(|_| !yaml.exists()) {
+            let map = of_message(&map.bag, &read_message(&map)?)?;
+            let (width, height) = (map.width(), map.height());
+            let reading_bytes = 2 * (width as u64 * height as u64);
+            return Ok((MapSize { width, height, reading_bytes }, *map.frame()));
+        }
         let (header, _) = MapHeader::parse(&read_yaml(yaml)?)
             .map_err(|cause| IoError::Yaml { path: yaml.to_owned(), cause })?;
         let mut places = places(yaml, &header.image);
@@ -122,7 +160,17 @@ impl MapFiles {
     /// # Errors
     /// An image that [`MapHeader::read_image`] refuses.
     pub fn decode(self, options: &ReadOptions) -> Result<LoadedMap, IoError> {
-        let Self { header, image, image_bytes, mut warnings } = self;
+        #[cfg(feature = "bags")]
+        if self.is_message {
+            let Self { header, image, image_bytes, warnings, .. } = self;
+            return Ok(LoadedMap {
+                map: of_message(&image, &image_bytes)?,
+                header,
+                image,
+                warnings,
+            });
+        }
+        let Self { header, image, image_bytes, mut warnings, .. } = self;
         let (map, noticed) = header
             .read_image(image_bytes, options)
             .map_err(|cause| IoError::Image { path: image.clone(), cause })?;
@@ -143,7 +191,14 @@ impl MapFiles {
                         let (named, read) = (header.image.clone(), image.clone());
                         warnings.push(MapWarning::ImageElsewhere { named, read });
                     }
-                    return Ok(Self { header, image: image.clone(), image_bytes, warnings });
+                    return Ok(Self {
+                        header,
+                        image: image.clone(),
+                        image_bytes,
+                        warnings,
+                        #[cfg(feature = "bags")]
+                        is_message: false,
+                    });
                 }
                 Err(cause) => failures.push(cause),
             }
@@ -152,6 +207,16 @@ impl MapFiles {
         let cause = failures.swap_remove(0);
         Err(IoError::MissingImage { yaml: yaml.to_owned(), places, cause })
     }
+}
+
+/// The map in the bytes of a message.
+#[cfg(feature = "bags")]
+fn of_message(bag: &Path, bytes: &[u8]) -> Result<OccupancyGrid, IoError> {
+    let message: Result<OccupancyGridMessage, MessageError> = from_cdr(bytes);
+    message.and_then(|message| message.to_map()).map_err(|cause| IoError::Bag {
+        path: bag.to_owned(),
+        cause: BagError::Message(cause),
+    })
 }
 
 /// Where the image of a YAML may lie, first where the YAML says.

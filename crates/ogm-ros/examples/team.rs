@@ -1,0 +1,55 @@
+//! What the robots of a simulated team publish second by second, as files: a folder a robot with a
+//! `nav_msgs/msg/OccupancyGrid` in CDR a second, and `truth.json` with the pose of each map frame in
+//! the plan. `team FOLDER ROBOTS SECONDS SEED`
+#![expect(clippy::disallowed_methods, reason = "files are what this is for")]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::PathBuf;
+
+use ogm_core::RobotId;
+use ogm_io::ros::{Header, OccupancyGridMessage, to_cdr};
+use ogm_sim::{
+    FloorPlan, LidarParams, MappingParams, PairParams, TeamMember, map_along_path, simulate_team,
+};
+
+/// Share of the time that the drive takes; then the robots stand.
+const DRIVEN: f64 = 0.8;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [folder, robots, seconds, seed] = &arguments[..] else {
+        return Err("write FOLDER ROBOTS SECONDS SEED".into());
+    };
+    let (folder, robots) = (PathBuf::from(folder), robots.parse::<usize>()?);
+    let (seconds, seed) = (seconds.parse::<usize>()?, seed.parse::<u64>()?);
+    let plan = FloorPlan::random(seed)?;
+    let lidar = LidarParams { beams: 181, ..LidarParams::rf() };
+    let mapping = MappingParams { resolution: 0.05, ..MappingParams::default() };
+    let params = PairParams { seed, lidar, mapping, step: 0.1, ..PairParams::default() };
+    let team = simulate_team(&plan, &vec![TeamMember::default(); robots], &params)?;
+    let mut truth = BTreeMap::new();
+    for (index, run) in team.robots.iter().enumerate() {
+        let name = format!("robot{}", index + 1);
+        fs::create_dir_all(folder.join(&name))?;
+        let world_from_map = run.world_from_map;
+        let path: Vec<_> = run.path.iter().map(|point| world_from_map * *point).collect();
+        let robot = RobotId(u32::try_from(index)?);
+        for second in 0..seconds {
+            let share = (second as f64 / (DRIVEN * seconds as f64)).min(1.0);
+            let driven = path.len().min(1 + share_of(path.len(), share));
+            let run = map_along_path(&plan, &path[..driven], &[], world_from_map, robot, &params)?;
+            let header = Header { frame_id: "map".to_owned(), ..Header::default() };
+            let message = to_cdr(&OccupancyGridMessage::from_map(header, &run.map)?)?;
+            fs::write(folder.join(&name).join(format!("{second:04}.cdr")), message)?;
+        }
+        truth.insert(name, [world_from_map.x(), world_from_map.y(), world_from_map.theta()]);
+    }
+    fs::write(folder.join("truth.json"), serde_json::to_vec_pretty(&truth)?)?;
+    Ok(())
+}
+
+#[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a share of a count")]
+fn share_of(count: usize, share: f64) -> usize {
+    (count as f64 * share) as usize
+}

@@ -1,0 +1,47 @@
+//! What the live merging can be told beforehand.
+
+use std::collections::BTreeMap;
+
+use ogm_merge::{FusionParams, RobotPrior, SessionParams};
+
+/// How the maps of a running team are merged.
+#[derive(Debug, Clone)]
+pub struct LiveParams {
+    /// The frame of the merged map: `world`.
+    pub world_frame: String,
+    /// How maps are matched and placed.
+    pub session: SessionParams,
+    /// How they become one.
+    pub fusion: FusionParams,
+    /// What is known about where robots' maps lie, before the first of them arrives.
+    pub priors: BTreeMap<String, RobotPrior>,
+    /// What a robot may send.
+    pub limits: Limits,
+}
+
+impl Default for LiveParams {
+    fn default() -> Self {
+        Self {
+            world_frame: "world".to_owned(),
+            session: SessionParams::default(),
+            fusion: FusionParams::default(),
+            priors: BTreeMap::new(),
+            limits: Limits::default(),
+        }
+    }
+}
+
+/// What a robot may send: whoever can write to the network can say anything.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Limits {
+    /// Robots that are listened to: 16.
+    pub robots: usize,
+    /// Cells of a map: 36 million, 300 m a side at 0.05 m.
+    pub cells: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { robots: 16, cells: 36_000_000 }
+    }
+}

@@ -1,0 +1,7 @@
+//! The command `ogm-ros`.
+
+mod command;
+
+fn main() -> std::process::ExitCode {
+    command::run()
+}

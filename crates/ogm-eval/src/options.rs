@@ -54,8 +54,18 @@ pub enum ExperimentId {
 
 impl ExperimentId {
     /// Every experiment, in the order of the report.
-    pub const ALL: [Self; 10] =
-        [Self::X1, Self::X2, Self::X3, Self::X4, Self::X5, Self::X6, Self::X7, Self::X8, Self::X9, Self::X10];
+    pub const ALL: [Self; 10] = [
+        Self::X1,
+        Self::X2,
+        Self::X3,
+        Self::X4,
+        Self::X5,
+        Self::X6,
+        Self::X7,
+        Self::X8,
+        Self::X9,
+        Self::X10,
+    ];
 
     /// Its name on a command line.
     #[must_use]

@@ -27,17 +27,14 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`merge_team`] does the same for any number of maps, [`MergeSession`] for maps that grow. [`unbend`]
-//! makes a map straight that drift bent.
+//! [`merge_team`] does so for any number of maps, [`MergeSession`] for maps that grow; [`unbend`]
+//! makes maps straight that drift bent.
 //!
-//! The papers' methods by themselves, with the knobs and the evidence of every stage:
+//! The papers' methods by themselves, with the evidence of every stage: [`align_by_tags`] (#1 to #3
+//! of Tsardoulias, Thallas, Petrou, *Metric Map Merging using RFID Tags & Topological Information*),
+//! [`align_carpin`] (Carpin and Birk), [`align_by_radon`] and [`merge_by_radon`] (Saeedi et al.).
 //!
-//! - [`align_by_tags`]: methods #1 to #3 of Tsardoulias, Thallas, Petrou, *Metric Map Merging using
-//!   RFID Tags & Topological Information*.
-//! - [`align_carpin`]: the random walk of Carpin and Birk, from a rough start.
-//! - [`align_by_radon`] and [`merge_by_radon`]: the segments of Saeedi et al., for a team.
-//!
-//! The last argument of what may take long is an [`ogm_core::Progress`], `&()` for none.
+//! What may take long has an [`ogm_core::Progress`] for its last argument, `&()` for none.
 
 mod bend;
 mod checks;

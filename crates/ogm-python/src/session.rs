@@ -14,7 +14,7 @@ use crate::component::Fusion;
 use crate::error::{MapError, map_error};
 use crate::map::Map;
 use crate::search::Search;
-use crate::transform::{Transform, array, optional, pose};
+use crate::transform::{Transform, array, optional, pose as pose_of};
 
 /// The maps of a running team, and what is known about where they lie in one world.
 ///
@@ -77,13 +77,13 @@ impl Session {
         &self,
         py: Python<'_>,
         robot: &str,
-        #[pyo3(from_py_with = pose_of)] pose: ogm_core::Se2,
+        pose: &Bound<'_, PyAny>,
         sigma: Option<(f64, f64)>,
         threads: Option<usize>,
         progress: Option<Bound<'_, PyAny>>,
     ) -> PyResult<Vec<Change>> {
         let (sigma_m, sigma_rad) = sigma.unwrap_or_default();
-        let prior = RobotPrior { world_from_map: pose, sigma_m, sigma_rad };
+        let prior = RobotPrior { world_from_map: pose_of(pose)?, sigma_m, sigma_rad };
         let background = Background::new(threads, progress)?;
         self.change(py, &background, |session, progress| session.set_prior(robot, prior, progress))
     }
@@ -169,10 +169,6 @@ impl Session {
         let placed = robots.iter().filter(|robot| robot.placement.is_some()).count();
         format!("Session({placed} of {} robots placed)", robots.len())
     }
-}
-
-fn pose_of(given: &Bound<'_, PyAny>) -> PyResult<ogm_core::Se2> {
-    pose(given)
 }
 
 /// Where a robot's map stands in a session.

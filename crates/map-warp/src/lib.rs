@@ -35,7 +35,8 @@
 //! its mean is the smoothest displacement in the sense of the motion coherence of Myronenko and Song
 //! (*Point Set Registration: Coherent Point Drift*, 2010). Embedded deformation (Sumner, Schmid,
 //! Pauly 2007) and B-spline free forms (Rueckert and others 1999) give no uncertainty by themselves,
-//! fold without a further term, and the latter's lattice has axes of its own. Here the uncertainty is
+//! fold without a further term, and the latter's lattice has axes of its own; on simulated drift it
+//! errs by 5.7 cm where this errs by 4.6 (`tests/against_a_lattice.rs`). Here the uncertainty is
 //! the posterior's, a frame that is turned turns the result, and the norm of the displacement in the
 //! kernel's Hilbert space bounds its slope everywhere: below 1, p ↦ p + d(p) is one to one by
 //! Banach's fixed point. Where a fit would be steeper, the best of those that are not is taken.

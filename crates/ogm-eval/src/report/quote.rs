@@ -21,7 +21,7 @@ struct Quote {
     path: &'static str,
 }
 
-const QUOTES: [Quote; 2] = [
+const QUOTES: [Quote; 3] = [
     Quote {
         marker: "results",
         sections: &["X3", "X4", "X8a", "pairs"],
@@ -35,6 +35,13 @@ const QUOTES: [Quote; 2] = [
         first_table: false,
         picture: "reliability",
         path: "reliability.svg",
+    },
+    Quote {
+        marker: "bend",
+        sections: &["X10", "X10 pairs"],
+        first_table: false,
+        picture: "bend",
+        path: "bend.png",
     },
 ];
 

@@ -32,8 +32,8 @@ pub(super) struct Wall {
 }
 
 impl Wall {
-    fn turned(&self, turn: &Se2) -> Self {
-        let turned = |direction: Vector2<f64>| *turn * direction;
+    fn turned(&self, turned_from_map: &Se2) -> Self {
+        let turned = |direction: Vector2<f64>| *turned_from_map * direction;
         Self { at: self.at, normal: self.normal.map(turned), side: self.side.map(turned) }
     }
 
@@ -123,15 +123,15 @@ impl Walls {
         Self { points, resolution, buckets }
     }
 
-    /// The nearest wall that may be `wall` if that lies at `place`, turned by `turn`.
+    /// The nearest wall that may be `wall` if that lies at `place`, turned by `turned_from_map`.
     pub(super) fn nearest(
         &self,
         place: Point2<f64>,
         wall: &Wall,
-        turn: &Se2,
+        turned_from_map: &Se2,
         reach: f64,
     ) -> Option<&Wall> {
-        let turned = wall.turned(turn);
+        let turned = wall.turned(turned_from_map);
         let is_line = |wall: &Wall| wall.normal.is_some();
         let like = self
             .within(place, reach)

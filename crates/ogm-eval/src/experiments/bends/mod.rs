@@ -1,6 +1,7 @@
 //! X10: bent maps made straight.
 
 mod criteria;
+mod figures;
 mod record;
 mod run;
 mod tables;
@@ -39,7 +40,7 @@ pub(crate) fn measure(options: &Options) -> anyhow::Result<Measured> {
             tables::by_overlap(&judged),
             tables::by_style(&judged),
         ],
-        figures: Vec::new(),
+        figures: figures::draw()?,
         criteria: criteria::criteria(&judged),
     };
     Ok(Measured::of_section(section))

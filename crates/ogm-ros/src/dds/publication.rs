@@ -23,8 +23,10 @@ const LOOK_EVERY: Duration = Duration::from_millis(250);
 /// How often samples are sent again before new readers come: what does not get through then has
 /// another reason.
 const MOST_ROUNDS: u32 = 12;
-/// RustDDS lets go of old samples every 4 s; until then whoever comes late waits for them too.
+/// RustDDS lets go of old samples every 4 s, and without readers keeps a few for ever; whoever comes
+/// late waits for them too.
 const KEPT_BY_DDS: Duration = Duration::from_secs(5);
+const KEPT_FOR_EVER: usize = 4;
 
 /// A topic to publish on; dropped, it is no longer offered.
 #[derive(Debug)]
@@ -162,7 +164,7 @@ impl Sending {
             }
             Err(_no_room) => self.pending = Some(message),
         }
-        while self.sent.len() > 1 && self.sent[0].at.elapsed() > KEPT_BY_DDS {
+        while self.sent.len() > KEPT_FOR_EVER && self.sent[0].at.elapsed() > KEPT_BY_DDS {
             self.sent.pop_front();
             self.reached.samples = self.reached.samples.saturating_sub(1);
         }

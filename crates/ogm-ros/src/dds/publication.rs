@@ -130,7 +130,7 @@ struct Sent {
 /// Whom the samples have reached.
 #[derive(Default)]
 struct Reached {
-    readers: usize,
+    readers: Vec<[u8; 16]>,
     /// How many of `sent` all of them have.
     samples: usize,
     /// How often the others were sent again.
@@ -180,21 +180,24 @@ impl Sending {
             self.reached.samples = self.sent.len();
             return;
         }
-        let readers: Vec<Vec<SocketAddr>> = self
+        let (readers, addresses): (Vec<[u8; 16]>, Vec<Vec<SocketAddr>>) = self
             .participant
             .discovered_readers()
             .into_iter()
             .filter(|reader| reader.subscription_topic_data.topic_name == self.topic)
-            .map(|reader| reader.reader_proxy.unicast_locator_list)
-            .map(|locators| locators.into_iter().map(SocketAddr::from).collect())
-            .collect();
-        if readers.len() != self.reached.readers {
-            self.reached = Reached { readers: readers.len(), ..Reached::default() };
+            .map(|reader| reader.reader_proxy)
+            .map(|reader| {
+                let locators = reader.unicast_locator_list.into_iter();
+                (reader.remote_reader_guid.to_bytes(), locators.map(SocketAddr::from).collect())
+            })
+            .unzip();
+        if readers != self.reached.readers {
+            self.reached = Reached { readers, ..Reached::default() };
         }
         if self.reached.rounds < MOST_ROUNDS {
             self.reached.rounds += 1;
             for sent in self.sent.iter().skip(self.reached.samples) {
-                self.pacer.send(sent.identity, &sent.message, &readers);
+                self.pacer.send(sent.identity, &sent.message, &addresses);
             }
         }
     }

@@ -4,6 +4,8 @@
 #![expect(clippy::unwrap_used, reason = "everything here is test code")]
 
 mod atomic;
+#[cfg(feature = "bags")]
+mod bags;
 mod defects;
 mod elsewhere;
 mod formats;

@@ -23,8 +23,10 @@ const LOOK_EVERY: Duration = Duration::from_millis(250);
 /// How often samples are sent again before new readers come: what does not get through then has
 /// another reason.
 const MOST_ROUNDS: u32 = 12;
-/// RustDDS lets go of old samples every 4 s; until then whoever comes late waits for them too.
+/// RustDDS lets go of old samples every 4 s, and without readers keeps a few for ever; whoever comes
+/// late waits for them too.
 const KEPT_BY_DDS: Duration = Duration::from_secs(5);
+const KEPT_FOR_EVER: usize = 4;
 
 /// A topic to publish on; dropped, it is no longer offered.
 #[derive(Debug)]
@@ -128,7 +130,7 @@ struct Sent {
 /// Whom the samples have reached.
 #[derive(Default)]
 struct Reached {
-    readers: usize,
+    readers: Vec<[u8; 16]>,
     /// How many of `sent` all of them have.
     samples: usize,
     /// How often the others were sent again.
@@ -162,7 +164,7 @@ impl Sending {
             }
             Err(_no_room) => self.pending = Some(message),
         }
-        while self.sent.len() > 1 && self.sent[0].at.elapsed() > KEPT_BY_DDS {
+        while self.sent.len() > KEPT_FOR_EVER && self.sent[0].at.elapsed() > KEPT_BY_DDS {
             self.sent.pop_front();
             self.reached.samples = self.reached.samples.saturating_sub(1);
         }
@@ -178,21 +180,24 @@ impl Sending {
             self.reached.samples = self.sent.len();
             return;
         }
-        let readers: Vec<Vec<SocketAddr>> = self
+        let (readers, addresses): (Vec<[u8; 16]>, Vec<Vec<SocketAddr>>) = self
             .participant
             .discovered_readers()
             .into_iter()
             .filter(|reader| reader.subscription_topic_data.topic_name == self.topic)
-            .map(|reader| reader.reader_proxy.unicast_locator_list)
-            .map(|locators| locators.into_iter().map(SocketAddr::from).collect())
-            .collect();
-        if readers.len() != self.reached.readers {
-            self.reached = Reached { readers: readers.len(), ..Reached::default() };
+            .map(|reader| reader.reader_proxy)
+            .map(|reader| {
+                let locators = reader.unicast_locator_list.into_iter();
+                (reader.remote_reader_guid.to_bytes(), locators.map(SocketAddr::from).collect())
+            })
+            .unzip();
+        if readers != self.reached.readers {
+            self.reached = Reached { readers, ..Reached::default() };
         }
         if self.reached.rounds < MOST_ROUNDS {
             self.reached.rounds += 1;
             for sent in self.sent.iter().skip(self.reached.samples) {
-                self.pacer.send(sent.identity, &sent.message, &readers);
+                self.pacer.send(sent.identity, &sent.message, &addresses);
             }
         }
     }

@@ -13,8 +13,8 @@ pub enum Durability {
 }
 
 /// Samples that a writer holds beyond its history for readers that lack them. Without a limit,
-/// RustDDS holds 8192.
-const UNACKNOWLEDGED: i32 = 2;
+/// RustDDS holds 8192; whoever comes late gets all that are held, oldest first.
+const UNACKNOWLEDGED: i32 = 1;
 
 /// What a reader asks for: no more than the writers offer, or nothing would come.
 pub(super) fn requested(durability: Durability, is_reliable: bool, depth: i32) -> QosPolicies {

@@ -74,12 +74,14 @@ impl Intake {
                 |update: OccupancyGridUpdate| write_into(grid, &update),
             ));
         }
-        let grid = self.grid.as_ref()?;
-        match outcome.and_then(|()| Ok(grid.to_map()?)) {
+        let grid = self.grid.as_ref();
+        match outcome.and_then(|()| Ok(grid.map(OccupancyGridMessage::to_map).transpose()?)) {
             Ok(map) => {
+                if let Some(grid) = grid {
+                    self.frame.clone_from(&grid.header.frame_id);
+                }
                 self.trouble.clear();
-                self.frame.clone_from(&grid.header.frame_id);
-                Some(map)
+                map
             }
             Err(refused) => {
                 self.refuse(&refused);

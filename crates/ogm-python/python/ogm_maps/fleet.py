@@ -14,7 +14,8 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from threading import Lock
 from typing import Any, Optional
 
-from distributed import Client, as_completed
+import distributed
+from distributed import Client
 
 from ogm_maps._native import (
     Hypothesis,
@@ -27,6 +28,9 @@ from ogm_maps._native import (
 )
 
 __all__ = ["align_pairs", "likely_pairs", "merge_maps"]
+
+# Of distributed only a part is typed.
+_as_completed: Any = distributed.as_completed
 
 Pair = tuple[int, int]
 Found = list[tuple[Pair, list[Hypothesis]]]
@@ -67,9 +71,10 @@ def align_pairs(
         sent = [packed[place] for place in needed]
         return client.submit(_align, block, sent, repeats, retries=retries, pure=False)
 
-    threads = max(1, sum(client.nthreads().values()))
+    cluster: Any = client
+    threads = max(1, sum(cluster.nthreads().values()))
     ahead = [submitted(blocks.popleft()) for _ in range(min(_AHEAD * threads, len(blocks)))]
-    running = as_completed(ahead)
+    running = _as_completed(ahead)
     for done in running:
         found.update(done.result())
         done.release()
@@ -87,11 +92,12 @@ def likely_pairs(
 
     What this saves and what it misses is measured in docs/fleet.md.
     """
+    cluster: Any = client
     sent = [
-        client.submit(_signature, _Packed(place, map), retries=retries, pure=False)
+        cluster.submit(_signature, _Packed(place, map), retries=retries, pure=False)
         for place, map in enumerate(maps)
     ]
-    return candidate_pairs(client.gather(sent), partners)
+    return candidate_pairs(cluster.gather(sent), partners)
 
 
 def merge_maps(
@@ -111,7 +117,9 @@ def merge_maps(
     `fusion`, `resolution`, `threads`.
     """
     found = align_pairs(client, maps, pairs, repeats=repeats, retries=retries, progress=progress)
-    nothing = {pair: [] for pair in _all_pairs(len(maps)) if not _either(found, pair)}
+    nothing: dict[Pair, list[Hypothesis]] = {
+        pair: [] for pair in _all_pairs(len(maps)) if not _either(found, pair)
+    }
     return merge(maps, alignments={**found, **nothing}, accept=accept, repeats=repeats, **how)
 
 

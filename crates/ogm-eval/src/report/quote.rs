@@ -15,33 +15,29 @@ struct Quote {
     sections: &'static [&'static str],
     /// Only the first table of a section, its result, without those that explain it.
     first_table: bool,
-    /// A figure that the document shows.
-    picture: &'static str,
-    /// Where that is, beside the document.
-    path: &'static str,
+    /// A figure that the document shows, and where that is, beside the document.
+    picture: Option<(&'static str, &'static str)>,
 }
 
-const QUOTES: [Quote; 3] = [
+const QUOTES: [Quote; 4] = [
     Quote {
         marker: "results",
         sections: &["X3", "X4", "X8a", "pairs"],
         first_table: true,
-        picture: "merge",
-        path: "docs/merge.png",
+        picture: Some(("merge", "docs/merge.png")),
     },
     Quote {
         marker: "reliability",
         sections: &["X7"],
         first_table: false,
-        picture: "reliability",
-        path: "reliability.svg",
+        picture: Some(("reliability", "reliability.svg")),
     },
+    Quote { marker: "teams", sections: &["X9"], first_table: false, picture: None },
     Quote {
         marker: "bend",
         sections: &["X10", "X10 pairs"],
         first_table: false,
-        picture: "bend",
-        path: "bend.png",
+        picture: Some(("bend", "bend.png")),
     },
 ];
 
@@ -60,13 +56,14 @@ pub(crate) fn quote_in(document: &Path, report: &Report) -> anyhow::Result<()> {
     for quote in quotes().collect::<Vec<_>>() {
         text = splice(&text, quote.marker, &content(quote, report), command)
             .with_context(|| format!("in {}", document.display()))?;
+        let Some((name, path)) = quote.picture else { continue };
         let figures = report.sections.iter().flat_map(|section| &section.figures);
-        for figure in figures.filter(|figure| figure.name == quote.picture) {
+        for figure in figures.filter(|figure| figure.name == name) {
             let bytes = match &figure.image {
                 Image::Png(bytes) => bytes,
                 Image::Svg(text) => text.as_bytes(),
             };
-            write_file(&document.with_file_name(quote.path), bytes)?;
+            write_file(&document.with_file_name(path), bytes)?;
         }
     }
     write_file(document, text.as_bytes())

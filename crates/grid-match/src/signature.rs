@@ -4,6 +4,7 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Point2, Vector2};
 
+use crate::lattice::floor_index;
 use crate::prepare::PreparedMap;
 use crate::state::State;
 
@@ -42,13 +43,13 @@ impl PreparedMap {
 
     /// The middles of rooms: free places that are farther from walls than those around them.
     fn places(&self) -> Vec<Point2<f64>> {
-        let step = (GRID_M / self.lattice.resolution).round().max(1.0) as usize;
+        let step = floor_index((GRID_M / self.lattice.resolution).round()).max(1);
         let (columns, rows) = (self.lattice.width / step, self.lattice.height / step);
         let clearance = |column: usize, row: usize| {
             let cell = self.cells[row * step * self.lattice.width + column * step];
             if cell.state == State::Free { cell.distance } else { 0.0 }
         };
-        let reach = (APART_M / (step as f64 * self.lattice.resolution)).round().max(1.0) as usize;
+        let reach = floor_index((APART_M / (step as f64 * self.lattice.resolution)).round()).max(1);
         let mut places: Vec<(f32, Point2<f64>)> = Vec::new();
         for row in 0..rows {
             for column in 0..columns {

@@ -89,7 +89,7 @@ def main():
     assert not wrong
     assert all(m <= scenario.FAR_M and rad <= scenario.FAR_RAD for m, rad in last.values())
     # A header of 400 million cells and a message without a cell too few are told apart by words.
-    for words in ("at most", "metres a cell", "cells, but has"):
+    for words in ("at most", "a resolution of NaN", "cells, but has"):
         assert words in said, f"{words!r} is not in what was said of the liar: {set(m for _, m in liar)}"
     assert {"map", "tf", "status", "conflicts"} <= set(came)
 

@@ -74,9 +74,7 @@ fn kind_of(file: &Path) -> Result<Option<Kind>, IoError> {
     const LENGTH: u64 = 16;
     let access = |cause| IoError::Access { path: file.to_owned(), action: "read", cause };
     let mut head = Vec::new();
-    File::open(file)
-        .and_then(|file| file.take(LENGTH).read_to_end(&mut head))
-        .map_err(access)?;
+    File::open(file).and_then(|file| file.take(LENGTH).read_to_end(&mut head)).map_err(access)?;
     Ok(if head.starts_with(b"\x89MCAP0\r\n") {
         Some(Kind::Mcap)
     } else if head.starts_with(b"SQLite format 3\0") {

@@ -37,8 +37,11 @@ def main():
     run.python("watch.py", seconds + 40, watch)
     time.sleep(2)
     began = time.time()
-    robots = {it: run.python("team.py", team, "--only", it) for it in truth}
-    time.sleep(5)
+    # The first to come holds the world.
+    robots = {"robot1": run.python("team.py", team, "--only", "robot1")}
+    time.sleep(3)
+    robots |= {it: run.python("team.py", team, "--only", it) for it in truth if it not in robots}
+    time.sleep(2)
     run.python("liar.py", seconds)
     time.sleep(max(0, began + kill_at - time.time()))
     first.send_signal(signal.SIGKILL)

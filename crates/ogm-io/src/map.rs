@@ -10,13 +10,13 @@ use ogm_core::{GridFrame, MAX_CELLS, OccupancyGrid};
 use crate::bounded::read_at_most;
 use crate::format::Format;
 use crate::lock::is_locked;
-use crate::{IoError, MapHeader, MapSize, MapWarning, ReadOptions, YamlError};
 #[cfg(feature = "bags")]
 use crate::{
     BagError, BagMap, MapMode,
     bag::read_message,
     ros::{MessageError, OccupancyGridMessage, from_cdr},
 };
+use crate::{IoError, MapHeader, MapSize, MapWarning, ReadOptions, YamlError};
 
 /// A map YAML has seven keys; 64 KiB of them are something else.
 const MAX_YAML_BYTES: u64 = 1 << 16;
@@ -213,10 +213,9 @@ impl MapFiles {
 #[cfg(feature = "bags")]
 fn of_message(bag: &Path, bytes: &[u8]) -> Result<OccupancyGrid, IoError> {
     let message: Result<OccupancyGridMessage, MessageError> = from_cdr(bytes);
-    message.and_then(|message| message.to_map()).map_err(|cause| IoError::Bag {
-        path: bag.to_owned(),
-        cause: BagError::Message(cause),
-    })
+    message
+        .and_then(|message| message.to_map())
+        .map_err(|cause| IoError::Bag { path: bag.to_owned(), cause: BagError::Message(cause) })
 }
 
 /// Where the image of a YAML may lie, first where the YAML says.

@@ -1,6 +1,6 @@
 //! What the robots of a simulated team publish second by second, as files: a folder a robot with a
 //! `nav_msgs/msg/OccupancyGrid` in CDR a second, and `truth.json` with the pose of each map frame in
-//! the plan. `team FOLDER ROBOTS SECONDS SEED`
+//! the plan. `team FOLDER ROBOTS SECONDS SEED METRES-A-CELL`
 #![expect(clippy::disallowed_methods, reason = "files are what this is for")]
 
 use std::collections::BTreeMap;
@@ -18,14 +18,14 @@ const DRIVEN: f64 = 0.8;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let [folder, robots, seconds, seed] = &arguments[..] else {
-        return Err("write FOLDER ROBOTS SECONDS SEED".into());
+    let [folder, robots, seconds, seed, resolution] = &arguments[..] else {
+        return Err("write FOLDER ROBOTS SECONDS SEED METRES-A-CELL".into());
     };
     let (folder, robots) = (PathBuf::from(folder), robots.parse::<usize>()?);
     let (seconds, seed) = (seconds.parse::<usize>()?, seed.parse::<u64>()?);
     let plan = FloorPlan::random(seed)?;
-    let lidar = LidarParams { beams: 181, ..LidarParams::rf() };
-    let mapping = MappingParams { resolution: 0.05, ..MappingParams::default() };
+    let lidar = LidarParams { beams: 361, ..LidarParams::rf() };
+    let mapping = MappingParams { resolution: resolution.parse()?, ..MappingParams::default() };
     let params = PairParams { seed, lidar, mapping, step: 0.1, ..PairParams::default() };
     let team = simulate_team(&plan, &vec![TeamMember::default(); robots], &params)?;
     let mut truth = BTreeMap::new();

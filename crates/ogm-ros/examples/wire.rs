@@ -19,7 +19,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let cells = u64::from(side) * u64::from(side);
         let value = |cell: u64| u8::try_from((7 * cell + u64::from(turn)) % 101).unwrap_or(0);
         let data = (0..cells).map(value).collect();
-        let info = MapMetaData { resolution: 0.05, width: side, height: side, ..Default::default() };
+        let info =
+            MapMetaData { resolution: 0.05, width: side, height: side, ..Default::default() };
         #[expect(clippy::disallowed_methods, reason = "what is measured is time")]
         let now = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH)?;
         let stamp = Time::from_nanoseconds(u64::try_from(now.as_nanos())?);

@@ -64,9 +64,13 @@ impl Recorder {
     pub fn finish(self) -> Result<(), IoError> {
         let Self { bag, path, folder, .. } = self;
         let failed = |cause: BagError| IoError::Bag { path: path.clone(), cause };
-        let (file, metadata) = bag.finish(&file_name(folder.as_deref().unwrap_or(&path))).map_err(failed)?;
+        let (file, metadata) =
+            bag.finish(&file_name(folder.as_deref().unwrap_or(&path))).map_err(failed)?;
         let access = |cause| IoError::Access { path: path.clone(), action: "write", cause };
-        file.into_inner().map_err(|error| access(error.into_error()))?.sync_all().map_err(access)?;
+        file.into_inner()
+            .map_err(|error| access(error.into_error()))?
+            .sync_all()
+            .map_err(access)?;
         match folder {
             Some(folder) => write_file(&folder.join("metadata.yaml"), metadata.as_bytes(), false),
             None => Ok(()),

@@ -10,7 +10,9 @@ pub enum BagError {
     #[error("neither an MCAP nor a SQLite bag, nor a folder of one")]
     NotABag,
     /// The file cannot be read on.
-    #[error("as {format}: {message}; a recorder that was killed leaves such files: `mcap recover` or `ros2 bag reindex` may help")]
+    #[error(
+        "as {format}: {message}; a recorder that was killed leaves such files: `mcap recover` or `ros2 bag reindex` may help"
+    )]
     Damaged {
         /// `MCAP` or `SQLite`.
         format: &'static str,
@@ -18,7 +20,9 @@ pub enum BagError {
         message: String,
     },
     /// Messages that are compressed one by one, or in another encoding than CDR.
-    #[error("topic {topic} is in encoding \"{encoding}\"; only cdr is read; `ros2 bag convert` rewrites a bag")]
+    #[error(
+        "topic {topic} is in encoding \"{encoding}\"; only cdr is read; `ros2 bag convert` rewrites a bag"
+    )]
     Encoding {
         /// The topic.
         topic: String,
@@ -34,7 +38,9 @@ pub enum BagError {
         have: Vec<String>,
     },
     /// No map so early.
-    #[error("the first map on topic {topic} is {first_s:.3} s after the bag's start, not by {asked_s} s")]
+    #[error(
+        "the first map on topic {topic} is {first_s:.3} s after the bag's start, not by {asked_s} s"
+    )]
     TooEarly {
         /// The topic.
         topic: String,

@@ -23,7 +23,9 @@ pub(super) fn files_of(bag: &Path) -> Result<Vec<PathBuf>, IoError> {
     if files.is_empty() {
         return Err(IoError::Bag { path: bag.to_owned(), cause: BagError::NotABag });
     }
-    files.sort_by_cached_key(|file| number_in(file).map_or((0, file.clone()), |n| (n, file.clone())));
+    files.sort_by_cached_key(|file| {
+        number_in(file).map_or((0, file.clone()), |n| (n, file.clone()))
+    });
     Ok(files)
 }
 

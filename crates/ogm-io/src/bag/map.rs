@@ -3,8 +3,8 @@
 use std::ops::ControlFlow;
 
 use super::error::BagError;
-use super::reference::BagMap;
 use super::read_bag;
+use super::reference::BagMap;
 use crate::IoError;
 use crate::ros::OccupancyGridMessage;
 

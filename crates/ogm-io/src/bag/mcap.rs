@@ -8,8 +8,8 @@ use std::path::Path;
 use mcap::sans_io::linear_reader::LinearReaderOptions;
 use mcap::sans_io::{MessageReadEvent, MessageReader};
 
-use super::BagMessage;
 use super::error::BagError;
+use super::message::BagMessage;
 
 /// Longest record that is read, bytes; a chunk holds at least one message.
 const MOST_RECORD_BYTES: usize = 1 << 30;

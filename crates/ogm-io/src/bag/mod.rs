@@ -5,83 +5,17 @@ mod error;
 mod folder;
 mod map;
 mod mcap;
+mod message;
+mod read;
 mod reference;
 mod sqlite;
 mod write;
 
-use std::fs::File;
-use std::io::Read;
-use std::ops::ControlFlow;
-use std::path::Path;
-
-use crate::IoError;
-
-use self::folder::files_of;
-
 pub use self::definition::OCCUPANCY_GRID_DEFINITION;
 pub use self::error::BagError;
+pub use self::message::BagMessage;
+pub use self::read::read_bag;
 pub use self::reference::BagMap;
 pub use self::write::{BagTopic, BagWriter, TopicId};
 
 pub(crate) use self::map::read_message;
-
-/// A message of a bag.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct BagMessage {
-    /// The topic, such as `/robot1/map`.
-    pub topic: String,
-    /// Its type, such as `nav_msgs/msg/OccupancyGrid`.
-    pub kind: String,
-    /// When it was received, nanoseconds since the epoch.
-    pub log_time_ns: u64,
-    /// Its bytes, header included.
-    pub data: Vec<u8>,
-}
-
-/// Calls `take` with the messages of a bag, an `.mcap` or `.db3` file or the folder of one, whose
-/// topic and type are `wanted`, until it breaks off.
-///
-/// Messages come in the order of the files, which is that of their times as far as the recorder kept
-/// it. One message at a time is in memory.
-///
-/// # Errors
-/// A bag that cannot be read, to its end where `take` does not break off.
-pub fn read_bag(
-    bag: &Path,
-    wanted: &dyn Fn(&str, &str) -> bool,
-    take: &mut dyn FnMut(BagMessage) -> ControlFlow<()>,
-) -> Result<(), IoError> {
-    for file in files_of(bag)? {
-        let failed = |cause| IoError::Bag { path: file.clone(), cause };
-        let flow = match kind_of(&file)? {
-            Some(Kind::Mcap) => mcap::read(&file, wanted, take).map_err(failed)?,
-            Some(Kind::Sqlite) => sqlite::read(&file, wanted, take).map_err(failed)?,
-            None => return Err(failed(BagError::NotABag)),
-        };
-        if flow.is_break() {
-            break;
-        }
-    }
-    Ok(())
-}
-
-enum Kind {
-    Mcap,
-    Sqlite,
-}
-
-fn kind_of(file: &Path) -> Result<Option<Kind>, IoError> {
-    const LENGTH: u64 = 16;
-    let access = |cause| IoError::Access { path: file.to_owned(), action: "read", cause };
-    let mut head = Vec::new();
-    File::open(file)
-        .and_then(|file| file.take(LENGTH).read_to_end(&mut head))
-        .map_err(access)?;
-    Ok(if head.starts_with(b"\x89MCAP0\r\n") {
-        Some(Kind::Mcap)
-    } else if head.starts_with(b"SQLite format 3\0") {
-        Some(Kind::Sqlite)
-    } else {
-        None
-    })
-}

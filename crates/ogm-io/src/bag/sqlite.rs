@@ -5,8 +5,8 @@ use std::path::Path;
 
 use rusqlite::{Connection, OpenFlags};
 
-use super::BagMessage;
 use super::error::BagError;
+use super::message::BagMessage;
 
 const MESSAGES: &str = "SELECT topics.name, topics.type, topics.serialization_format, \
      messages.timestamp, messages.rowid \

@@ -41,10 +41,10 @@ impl Pose {
 }
 
 impl From<Se2> for Pose {
-    fn from(pose: Se2) -> Self {
-        let half = pose.theta() / 2.0;
+    fn from(parent_from_child: Se2) -> Self {
+        let half = parent_from_child.theta() / 2.0;
         Self {
-            position: Point { x: pose.x(), y: pose.y(), z: 0.0 },
+            position: Point { x: parent_from_child.x(), y: parent_from_child.y(), z: 0.0 },
             orientation: Quaternion { z: half.sin(), w: half.cos(), ..Quaternion::default() },
         }
     }

@@ -86,7 +86,6 @@ impl Config {
     }
 
     fn read(&mut self, path: &Path) -> anyhow::Result<()> {
-        #[expect(clippy::disallowed_methods, reason = "this is the edge")]
         let text = std::fs::read_to_string(path)?;
         let file: File = serde_saphyr::from_str(&text)?;
         let mut poses: BTreeMap<String, [f64; 3]> = BTreeMap::new();

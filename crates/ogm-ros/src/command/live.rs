@@ -113,13 +113,13 @@ impl Outputs {
     }
 
     fn send(&self, message: Message) {
-        if let Some((_, publication)) = self.0.iter().find(|(output, _)| *output == message.output) {
+        if let Some((_, publication)) = self.0.iter().find(|(output, _)| *output == message.output)
+        {
             publication.send(message.bytes);
         }
     }
 }
 
-#[expect(clippy::disallowed_methods, reason = "the clock is here and nowhere else")]
 fn now() -> Time {
     let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
     Time::from_nanoseconds(u64::try_from(since.as_nanos()).unwrap_or(u64::MAX))

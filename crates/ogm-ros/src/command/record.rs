@@ -34,7 +34,6 @@ pub(crate) fn run(args: &RecordArgs) -> anyhow::Result<()> {
     Ok(recorder.finish()?)
 }
 
-#[expect(clippy::disallowed_methods, reason = "the edge has a clock")]
 fn now_ns() -> u64 {
     let since = SystemTime::now().duration_since(SystemTime::UNIX_EPOCH).unwrap_or_default();
     u64::try_from(since.as_nanos()).unwrap_or(u64::MAX)

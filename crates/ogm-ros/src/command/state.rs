@@ -7,7 +7,6 @@ use ogm_core::Progress;
 use ogm_ros::live::{Live, LiveParams, SavedLive};
 
 /// Goes on where the file says, or begins if there is none.
-#[expect(clippy::disallowed_methods, reason = "this is the edge")]
 pub(crate) fn resume(
     path: Option<&Path>,
     params: LiveParams,

@@ -39,8 +39,7 @@ impl Node {
     /// # Errors
     /// No network interface that can be used, or no port left.
     pub fn new(domain: u16) -> Result<Self, DdsError> {
-        let participant =
-            DomainParticipant::new(domain).map_err(refused("join the network"))?;
+        let participant = DomainParticipant::new(domain).map_err(refused("join the network"))?;
         let none = QosPolicies::qos_none();
         let publisher = participant.create_publisher(&none).map_err(refused("publish"))?;
         let subscriber = participant.create_subscriber(&none).map_err(refused("subscribe"))?;

@@ -6,6 +6,8 @@
 //! from here, spread over time, in the name of the same writer: receivers go by the writer's
 //! identity, not by the socket that a datagram comes from.
 
+#![expect(clippy::disallowed_methods, reason = "the edge to the network has a clock")]
+
 use std::net::{IpAddr, Ipv4Addr, SocketAddr, UdpSocket};
 use std::time::{Duration, Instant};
 
@@ -38,7 +40,12 @@ impl Pacer {
     }
 
     /// Sends `sample` to each of `readers`; what does not get through, the next round brings.
-    pub(super) fn send(&self, identity: SampleIdentity, sample: &[u8], readers: &[Vec<SocketAddr>]) {
+    pub(super) fn send(
+        &self,
+        identity: SampleIdentity,
+        sample: &[u8],
+        readers: &[Vec<SocketAddr>],
+    ) {
         for addresses in readers {
             let ipv4 = || addresses.iter().filter(|address| address.is_ipv4());
             let local = ipv4().find(|address| is_local(address.ip()));

@@ -1,5 +1,7 @@
 //! One topic that is written, by a thread of its own.
 
+#![expect(clippy::disallowed_methods, reason = "the edge to the network has a clock")]
+
 use std::collections::VecDeque;
 use std::net::SocketAddr;
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -45,7 +47,15 @@ impl Publication {
         let queue = Arc::new(Queue { state: Mutex::default(), changed: Condvar::new(), depth });
         let name = format!("dds {topic}");
         let pacer = Pacer::new()?;
-        let sending = Sending { participant, topic, writer, pacer, sent: VecDeque::new(), reached: Reached::default(), pending: None };
+        let sending = Sending {
+            participant,
+            topic,
+            writer,
+            pacer,
+            sent: VecDeque::new(),
+            reached: Reached::default(),
+            pending: None,
+        };
         let shared = Arc::clone(&queue);
         let thread = std::thread::Builder::new()
             .name(name)
@@ -139,15 +149,17 @@ struct Reached {
 
 impl Sending {
     fn run(mut self, queue: &Queue) {
+        let mut is_behind = false;
         loop {
-            let within = if self.pending.is_some() { Duration::ZERO } else { LOOK_EVERY };
+            let has_work = is_behind || self.pending.is_some();
+            let within = if has_work { Duration::ZERO } else { LOOK_EVERY };
             let Some(message) = queue.next(within) else {
                 return;
             };
             if let Some(message) = message.or_else(|| self.pending.take()) {
                 self.write(message);
             }
-            self.repeat();
+            is_behind = self.repeat();
         }
     }
 
@@ -170,15 +182,15 @@ impl Sending {
         }
     }
 
-    /// Sends large samples again while there is a reader that lacks them.
-    fn repeat(&mut self) {
+    /// Sends large samples again to readers that lack them; whether that may have to be done again.
+    fn repeat(&mut self) -> bool {
         if self.sent.is_empty() {
-            return;
+            return false;
         }
         let is_there = self.writer.wait_for_acknowledgments(ACKNOWLEDGED_WITHIN);
         if is_there.unwrap_or(true) {
             self.reached.samples = self.sent.len();
-            return;
+            return false;
         }
         let (readers, addresses): (Vec<[u8; 16]>, Vec<Vec<SocketAddr>>) = self
             .participant
@@ -200,6 +212,7 @@ impl Sending {
                 self.pacer.send(sent.identity, &sent.message, &addresses);
             }
         }
+        self.reached.rounds < MOST_ROUNDS
     }
 }
 

@@ -70,9 +70,11 @@ impl Intake {
             let Some(grid) = &mut self.grid else {
                 break;
             };
-            outcome = outcome.and(from_cdr(message).map_err(Refused::from).and_then(
-                |update: OccupancyGridUpdate| write_into(grid, &update),
-            ));
+            outcome = outcome.and(
+                from_cdr(message)
+                    .map_err(Refused::from)
+                    .and_then(|update: OccupancyGridUpdate| write_into(grid, &update)),
+            );
         }
         let grid = self.grid.as_ref();
         match outcome.and_then(|()| Ok(grid.map(OccupancyGridMessage::to_map).transpose()?)) {
@@ -119,7 +121,10 @@ fn read(message: &[u8], most: usize) -> Result<OccupancyGridMessage, Refused> {
 }
 
 /// Copies the cells of an update to where they belong.
-fn write_into(grid: &mut OccupancyGridMessage, update: &OccupancyGridUpdate) -> Result<(), Refused> {
+fn write_into(
+    grid: &mut OccupancyGridMessage,
+    update: &OccupancyGridUpdate,
+) -> Result<(), Refused> {
     let OccupancyGridUpdate { x, y, width, height, .. } = *update;
     let need = u64::from(width) * u64::from(height);
     if u64::try_from(update.data.len()) != Ok(need) {

@@ -109,7 +109,7 @@ impl Live {
         match from_cdr::<Text>(message)?.data.parse() {
             // One a step: whoever sends more has the last word.
             Ok(command) => self.commands = vec![command],
-            Err(why) => self.answer = why,
+            Err(why) => (self.answer, self.known.status) = (why, None),
         }
         Ok(())
     }

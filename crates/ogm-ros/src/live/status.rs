@@ -48,7 +48,12 @@ pub(super) fn of_robot(
 }
 
 /// The node as a whole.
-pub(super) fn of_team(placed: usize, robots: usize, turned_away: u64, last: &str) -> DiagnosticStatus {
+pub(super) fn of_team(
+    placed: usize,
+    robots: usize,
+    turned_away: u64,
+    last: &str,
+) -> DiagnosticStatus {
     let mut message = format!("{placed} of {robots} robots placed");
     let mut level = if placed < robots { Level::Warn } else { Level::Ok };
     if turned_away > 0 {

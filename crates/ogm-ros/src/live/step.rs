@@ -1,5 +1,7 @@
 //! One turn of the live merging.
 
+use std::collections::BTreeMap;
+
 use ogm_core::{Occupancy, OccupancyGrid, Progress};
 use ogm_io::ros::{Header, OccupancyGridMessage, Time, to_cdr};
 use ogm_merge::{Change, ChangeKind, MergeError, Merged, RobotPrior};
@@ -35,6 +37,8 @@ impl Live {
     pub fn step(&mut self, now: Time, progress: &dyn Progress) -> Result<Step, LiveError> {
         let mut step = Step::default();
         for command in std::mem::take(&mut self.commands) {
+            self.answer.clear();
+            self.known.status = None;
             let outcome = self.obey(&command, progress);
             self.note(&mut step, &format!("{command:?}"), outcome)?;
         }
@@ -49,10 +53,13 @@ impl Live {
                 intake.refuse(error);
             }
             self.note(&mut step, &robot, outcome)?;
-            self.known.is_stale |= self.session.robot(&robot).is_some_and(|r| r.placement.is_some());
+            self.known.is_stale |=
+                self.session.robot(&robot).is_some_and(|r| r.placement.is_some());
         }
-        let ready: Vec<(String, RobotPrior)> =
-            self.priors.extract_if(.., |name, _| self.session.robot(name).is_some()).collect();
+        let is_known = |name: &str| self.session.robot(name).is_some();
+        let (ready, waiting): (BTreeMap<String, RobotPrior>, _) =
+            std::mem::take(&mut self.priors).into_iter().partition(|(name, _)| is_known(name));
+        self.priors = waiting;
         for (robot, prior) in ready {
             let outcome = self.session.set_prior(&robot, prior, progress);
             self.note(&mut step, &robot, outcome)?;
@@ -104,7 +111,6 @@ impl Live {
     ) -> Result<(), LiveError> {
         match outcome {
             Ok(changes) => {
-                self.answer.clear();
                 self.known.is_stale |= !changes.is_empty();
                 step.news.extend(changes.iter().map(told));
                 Ok(())

@@ -112,8 +112,15 @@ impl Transform {
         format!("Transform(x={:?}, y={:?}, theta={:?})", self.x(), self.y(), self.theta())
     }
 
-    fn __getnewargs__(&self) -> (f64, f64, f64) {
-        (self.x(), self.y(), self.theta())
+    fn __reduce__<'py>(slf: &Bound<'py, Self>) -> PyResult<(Bound<'py, PyAny>, ([f64; 4],))> {
+        Ok((slf.get_type().getattr("_restore")?, (slf.get().0.parts(),)))
+    }
+
+    /// The transform of a pickle, to the last bit.
+    #[staticmethod]
+    fn _restore(parts: [f64; 4]) -> PyResult<Self> {
+        let restored = Se2::from_parts(parts);
+        restored.map(Self).ok_or_else(|| MapError::new_err(format!("{parts:?} is no transform")))
     }
 }
 

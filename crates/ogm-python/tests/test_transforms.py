@@ -1,6 +1,7 @@
 """Transforms: a group that acts on points."""
 
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -57,3 +58,11 @@ def test_what_is_no_turn_and_move_is_an_error(pose, error, target):
         ogm.Transform(math.nan)
     with pytest.raises(ogm.MapError, match=r"shape \(2,\) or \(n, 2\)"):
         A @ np.zeros((2, 3))
+
+
+def test_pickles_are_the_same_to_the_last_bit():
+    turn = ogm.Transform(0.1, 0.2, 0.3)
+    product = ogm.Transform()
+    for _ in range(50):
+        product = product @ turn
+        assert pickle.loads(pickle.dumps(product)) == product

@@ -41,7 +41,7 @@ pub(crate) fn measure(options: &Options) -> anyhow::Result<Measured> {
             tables::by_style(&judged),
         ],
         figures: figures::draw()?,
-        criteria: criteria::criteria(&judged),
+        criteria: criteria::criteria(&judged, options.quick),
     };
     Ok(Measured::of_section(section))
 }

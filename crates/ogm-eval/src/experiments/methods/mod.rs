@@ -64,7 +64,11 @@ pub(crate) fn measure(options: &Options) -> anyhow::Result<Measured> {
             tables::failures(&runs),
         ],
         figures,
-        criteria: [criteria::criteria(&runs, options.quick), readers::criteria(&believed)].concat(),
+        criteria: [
+            criteria::criteria(&runs, options.quick),
+            readers::criteria(&believed, options.quick),
+        ]
+        .concat(),
     };
     Ok(Measured { sections: vec![section], runs, timings })
 }

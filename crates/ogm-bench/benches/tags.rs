@@ -37,7 +37,7 @@ fn tags(criterion: &mut Criterion) {
         filter.update(robot, range).expect("the tag is in range");
     }
     criterion.bench_function("tags/estimate", |bencher| {
-        bencher.iter(|| black_box(&filter).estimate(7));
+        bencher.iter(|| black_box(&filter).estimate(7.into()));
     });
 }
 

@@ -127,7 +127,8 @@ pub(crate) struct SearchArgs {
     #[arg(long, value_enum, default_value_t)]
     pub(crate) method: MethodArg,
     /// Tag readings of a map, repeatable; CSV with the header tag_id,robot_x_m,robot_y_m,range_m,
-    /// robot positions in the frame of that map
+    /// robot positions in the frame of that map; a tag is a number or the 24 or 32 hexadecimal
+    /// digits of an EPC
     #[arg(long, value_name = "MAP.yaml=TAGS.csv")]
     pub(crate) tags: Vec<String>,
     /// Longest range of the tag reader, metres; readings beyond it are left out

@@ -43,6 +43,7 @@ mod robot;
 mod se2;
 mod segment;
 mod tag;
+mod tag_id;
 mod warp;
 
 pub use angle::{KFoldMean, mean_k_fold, undirected_difference, wrap_angle, wrap_period};
@@ -66,6 +67,7 @@ pub use robot::RobotId;
 pub use se2::Se2;
 pub use segment::Segment;
 pub use tag::{TagEstimate, TagReading};
+pub use tag_id::{TagId, TagIdError};
 pub use warp::{CellsOnLine, NearestWarp, warp_nearest};
 
 #[cfg(doctest)]

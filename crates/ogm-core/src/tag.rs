@@ -2,11 +2,13 @@
 
 use nalgebra::{Matrix2, Point2};
 
+use crate::tag_id::TagId;
+
 /// One range to one tag, read by a robot.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TagReading {
     /// Which tag.
-    pub tag_id: u32,
+    pub tag_id: TagId,
     /// Where the robot was, in its own map frame, metres.
     pub robot_position: Point2<f64>,
     /// Distance to the tag, metres.
@@ -17,7 +19,7 @@ pub struct TagReading {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct TagEstimate {
     /// Which tag.
-    pub tag_id: u32,
+    pub tag_id: TagId,
     /// Best position, metres.
     pub position: Point2<f64>,
     /// Centre of the most probable cell, metres.

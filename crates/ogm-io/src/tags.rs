@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use nalgebra::Point2;
-use ogm_core::TagReading;
+use ogm_core::{TagIdError, TagReading};
 
 use crate::bounded::read_at_most;
 use crate::{IoError, TAG_LOG_HEADER, TagLogError, write_file};
@@ -48,7 +48,7 @@ pub fn write_tags(path: &Path, readings: &[TagReading]) -> Result<(), IoError> {
 ///
 /// # Errors
 /// Bytes that are not UTF-8, another header than [`TAG_LOG_HEADER`], a line without exactly four
-/// values, an identifier that is no `u32`, a number that is not finite, a negative range.
+/// values, an identifier that is no [`TagId`](ogm_core::TagId), a number that is not finite, a negative range.
 pub fn parse_tags(csv: &[u8]) -> Result<Vec<TagReading>, TagLogError> {
     let text = str::from_utf8(csv).map_err(|error| TagLogError::NotText {
         line: 1 + csv.iter().take(error.valid_up_to()).filter(|&&b| b == b'\n').count(),
@@ -71,8 +71,13 @@ fn parse_line(line: usize, text: &str) -> Result<TagReading, TagLogError> {
     let [tag_id, x, y, range] = values[..] else {
         return Err(TagLogError::Columns { line, found: values.len(), text: text.to_owned() });
     };
-    let tag_id = tag_id.parse().map_err(|_no_number| {
-        value_error(line, "tag_id", tag_id.to_owned(), "a whole number from 0 to 4294967295")
+    let tag_id = tag_id.parse().map_err(|TagIdError(text)| {
+        value_error(
+            line,
+            "tag_id",
+            text,
+            "a whole number or the 24 or 32 hexadecimal digits of an EPC",
+        )
     })?;
     let number = |column, text: &str| {
         let value = text.parse().unwrap_or(f64::NAN);

@@ -66,7 +66,7 @@ fn tags(world_from_map: Se2, places: &[[f64; 2]]) -> Vec<TagEstimate> {
     let at = (0..).zip(places).map(|(tag_id, &[x, y])| {
         let position = map_from_world * Point2::new(x, y);
         TagEstimate {
-            tag_id,
+            tag_id: tag_id.into(),
             position,
             mode: position,
             covariance: Matrix2::from_diagonal_element(1e-4),

@@ -3,13 +3,16 @@
 use std::path::PathBuf;
 
 use nalgebra::Point2;
-use ogm_core::{TagEstimate, TagReading};
+use ogm_core::{TagEstimate, TagId, TagReading};
 use ogm_merge::{FilterParams, localise};
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python, pyclass, pyfunction, pymethods};
 
 use crate::background::Background;
 use crate::error::{MapError, map_error};
 use crate::numbers::numbers;
+
+/// Up to here a number of an array is a whole number for certain.
+const MOST_EXACT: f64 = 9_007_199_254_740_992.0;
 
 /// Where a tag is believed to be in the frame of one map, and how surely.
 #[pyclass(frozen, eq, module = "ogm_maps")]
@@ -18,10 +21,10 @@ pub(crate) struct Tag(TagEstimate);
 
 #[pymethods]
 impl Tag {
-    /// Which tag.
+    /// Which tag: its number, or the bits of its EPC.
     #[getter]
-    fn tag_id(&self) -> u32 {
-        self.0.tag_id
+    fn tag_id(&self) -> u128 {
+        self.0.tag_id.bits()
     }
 
     /// Best position (x, y), metres.
@@ -115,9 +118,10 @@ fn readings(log: &Bound<'_, PyAny>) -> PyResult<Vec<TagReading>> {
 }
 
 #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "checked")]
-fn tag_id(number: f64) -> PyResult<u32> {
-    if number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number) {
-        return Ok(number as u32);
+fn tag_id(number: f64) -> PyResult<TagId> {
+    if number.fract() == 0.0 && (0.0..=MOST_EXACT).contains(&number) {
+        return Ok(TagId::from_bits(number as u128));
     }
-    Err(MapError::new_err(format!("a tag_id is a whole number from 0 on, not {number}")))
+    let text = format!("a tag_id in an array is a whole number from 0 to 2^53, not {number}");
+    Err(MapError::new_err(text))
 }

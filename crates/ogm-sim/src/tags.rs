@@ -120,7 +120,7 @@ pub(crate) fn read_along(
                 let is_echo = reflected < params.echo_share;
                 let detour = if is_echo { detour * params.echo_length } else { 0.0 };
                 readings.push(TagReading {
-                    tag_id,
+                    tag_id: tag_id.into(),
                     robot_position,
                     range: (distance + params.range_bias + detour + noise).max(0.0),
                 });
@@ -180,7 +180,7 @@ mod tests {
         for seed in 0..20 {
             for reading in tag_readings(&path, &[(7, tag)], &params, seed).unwrap() {
                 let truth = (reading.robot_position - tag).norm();
-                assert!(reading.tag_id == 7 && truth <= 3.0 && reading.range <= 3.2);
+                assert!(reading.tag_id == 7.into() && truth <= 3.0 && reading.range <= 3.2);
                 let error = reading.range - truth;
                 sum += error;
                 squares += error * error;

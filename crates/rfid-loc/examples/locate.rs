@@ -20,7 +20,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 let s = 0.03 * f64::from(step);
                 let robot_position = if name == "curve" { curve(s) } else { straight(s) };
                 TagReading {
-                    tag_id: 7,
+                    tag_id: 7.into(),
                     robot_position,
                     range: (tag - robot_position).norm() + noise.sample(&mut random),
                 }

@@ -1,6 +1,6 @@
 //! What cannot be meant as a reading, an estimate or a parameter.
 
-use ogm_core::{Cancelled, GridError, ParameterError};
+use ogm_core::{Cancelled, GridError, ParameterError, TagId};
 
 /// Input that cannot be meant.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -29,7 +29,7 @@ pub enum TagError {
     #[error("tag {tag_id} has no usable estimate: position ({x}, {y}) m, certainty {certainty}")]
     Estimate {
         /// Which tag.
-        tag_id: u32,
+        tag_id: TagId,
         /// x, metres.
         x: f64,
         /// y, metres.
@@ -41,7 +41,7 @@ pub enum TagError {
     #[error("tag {tag_id} occurs twice in one map")]
     DuplicateTag {
         /// Which tag.
-        tag_id: u32,
+        tag_id: TagId,
     },
     /// A search area that is no grid, or a rotation that is not finite.
     #[error(transparent)]

@@ -1,7 +1,7 @@
 //! The grid Bayes filter of one tag (Eqs. 1, 2).
 
 use nalgebra::{Matrix2, Point2, Vector2};
-use ogm_core::{CellIndex, Grid, GridFrame, ParameterError, Se2, TagEstimate, require};
+use ogm_core::{CellIndex, Grid, GridFrame, ParameterError, Se2, TagEstimate, TagId, require};
 
 use crate::fit::{Bias, Fit, OUTLIER_SIGMA};
 use crate::params::RANGE_SLACK_SIGMA;
@@ -147,7 +147,7 @@ impl TagFilter {
     /// that the readings deserve: of a sensor as noisy as their residuals say, and times the
     /// probability that its ranges have no bias.
     #[must_use]
-    pub fn estimate(&self, tag_id: u32) -> Option<TagEstimate> {
+    pub fn estimate(&self, tag_id: TagId) -> Option<TagEstimate> {
         let (estimate, bias) = self.fitted(tag_id)?;
         Some(match bias {
             Some(bias) => {
@@ -158,7 +158,7 @@ impl TagFilter {
     }
 
     /// The estimate before a bias is thought of, and what is to be thought where the fit is checked.
-    pub(crate) fn fitted(&self, tag_id: u32) -> Option<(TagEstimate, Option<Bias>)> {
+    pub(crate) fn fitted(&self, tag_id: TagId) -> Option<(TagEstimate, Option<Bias>)> {
         if self.readings.is_empty() {
             return None;
         }

@@ -9,7 +9,7 @@ use crate::{TagPair, common_tags};
 pub(crate) fn estimate(tag_id: u32, x: f64, y: f64) -> TagEstimate {
     let position = Point2::new(x, y);
     TagEstimate {
-        tag_id,
+        tag_id: tag_id.into(),
         position,
         mode: position,
         covariance: Matrix2::from_diagonal_element(1e-4),

@@ -18,7 +18,7 @@
 //!         let angle = 0.05 * f64::from(step);
 //!         let robot_position = Point2::new(angle.sin(), 1.0 - angle.cos());
 //!         let range = (tag - robot_position).norm();
-//!         TagReading { tag_id: 7, robot_position, range }
+//!         TagReading { tag_id: 7.into(), robot_position, range }
 //!     })
 //!     .collect();
 //! let estimates = localise(&log, &FilterParams::default(), &())?;

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Point2;
-use ogm_core::{Progress, Steps, TagEstimate, TagReading};
+use ogm_core::{Progress, Steps, TagEstimate, TagId, TagReading};
 
 use crate::filter::check_reading;
 use crate::fit::Bias;
@@ -28,7 +28,7 @@ pub fn localise(
     params: &FilterParams,
     progress: &dyn Progress,
 ) -> Result<Vec<TagEstimate>, TagError> {
-    let mut by_tag: BTreeMap<u32, Vec<&TagReading>> = BTreeMap::new();
+    let mut by_tag: BTreeMap<TagId, Vec<&TagReading>> = BTreeMap::new();
     for reading in readings {
         by_tag.entry(reading.tag_id).or_default().push(reading);
     }
@@ -69,7 +69,8 @@ mod tests {
             .map(|step| {
                 let angle = 0.1 * f64::from(step);
                 let robot_position = Point2::new(1.5 * angle.cos(), 1.5 * angle.sin());
-                TagReading { tag_id, robot_position, range: (tag - robot_position).norm() }
+                let range = (tag - robot_position).norm();
+                TagReading { tag_id: tag_id.into(), robot_position, range }
             })
             .collect()
     }
@@ -84,7 +85,7 @@ mod tests {
         let estimates = localise(&interleaved, &params, &()).unwrap();
         assert_eq!(estimates, localise(&logs.concat(), &params, &()).unwrap());
         for (estimate, (id, position)) in estimates.iter().zip([tags[1], tags[0]]) {
-            assert_eq!((estimate.tag_id, estimate.readings), (id, 30));
+            assert_eq!((estimate.tag_id, estimate.readings), (id.into(), 30));
             let error = (estimate.position - position).norm();
             assert!(error < 0.01, "tag {id} is {error} m off, more than half a cell");
         }

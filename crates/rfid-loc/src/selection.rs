@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use nalgebra::Point2;
-use ogm_core::{Outcome, Refusal, TagEstimate, require};
+use ogm_core::{Outcome, Refusal, TagEstimate, TagId, require};
 
 use crate::filter::MAX_COORDINATE;
 use crate::{SelectionParams, TagError};
@@ -18,7 +18,7 @@ pub struct TagPair {
 impl TagPair {
     /// Which tag.
     #[must_use]
-    pub fn tag_id(&self) -> u32 {
+    pub fn tag_id(&self) -> TagId {
         self.target.tag_id
     }
 
@@ -145,7 +145,7 @@ pub(crate) fn positions(pair: &TagPair) -> (Point2<f64>, Point2<f64>) {
     (pair.target.position, pair.source.position)
 }
 
-fn by_id(estimates: &[TagEstimate]) -> Result<BTreeMap<u32, &TagEstimate>, TagError> {
+fn by_id(estimates: &[TagEstimate]) -> Result<BTreeMap<TagId, &TagEstimate>, TagError> {
     let mut by_id = BTreeMap::new();
     for estimate in estimates {
         let &TagEstimate { tag_id, position, certainty, .. } = estimate;
@@ -177,11 +177,11 @@ mod tests {
             .collect()
     }
 
-    fn select(target: &[(u32, u32)], source: &[(u32, u32)]) -> Outcome<Vec<(u32, f64)>> {
+    fn select(target: &[(u32, u32)], source: &[(u32, u32)]) -> Outcome<Vec<(u128, f64)>> {
         let pairs = common_tags(&known(target), &known(source)).unwrap();
         match select_tags(&pairs, &SelectionParams::default()).unwrap() {
             Outcome::Found(pairs) => {
-                Outcome::Found(pairs.map(|pair| (pair.tag_id(), pair.certainty())).to_vec())
+                Outcome::Found(pairs.map(|pair| (pair.tag_id().bits(), pair.certainty())).to_vec())
             }
             Outcome::Refused(refusal) => Outcome::Refused(refusal),
         }
@@ -197,7 +197,7 @@ mod tests {
     fn of_equal_certainty_the_smaller_id_comes_first_whatever_the_order() {
         let selected =
             select(&[(8, 95), (3, 95), (6, 95), (1, 95)], &[(6, 97), (8, 97), (1, 97), (3, 97)]);
-        let ids: Vec<u32> = selected.found().unwrap().iter().map(|tag| tag.0).collect();
+        let ids: Vec<u128> = selected.found().unwrap().iter().map(|tag| tag.0).collect();
         assert_eq!(ids, [1, 3, 6]);
     }
 
@@ -231,7 +231,7 @@ mod tests {
             let pairs = common_tags(tags, tags).unwrap();
             let selected =
                 select_tags(&pairs, &SelectionParams::default()).unwrap().found().unwrap();
-            selected.map(|pair| pair.tag_id())
+            selected.map(|pair| pair.tag_id().bits())
         };
         let beside = [at(1, 0.0, 0.99), at(2, 0.1, 0.98), at(3, 2.0, 0.97), at(4, 4.0, 0.80)];
         assert_eq!(ids(&beside), [1, 3, 4]);
@@ -246,7 +246,7 @@ mod tests {
         let tags = [at(1, 0.0, 0.99), at(2, 0.1, 0.98), at(3, 2.0, 0.80)];
         let pairs = common_tags(&tags, &tags).unwrap();
         let two = select_two_tags(&pairs, &params).unwrap().found().unwrap();
-        assert_eq!(two.map(|pair| pair.tag_id()), [1, 3]);
+        assert_eq!(two.map(|pair| pair.tag_id().bits()), [1, 3]);
         let refused = select_two_tags(&pairs[..1], &params).unwrap();
         assert_eq!(refused.refusal(), Some(&Refusal::TooFewTags { have: 1, need: 2 }));
         assert_eq!(sure_tags(&pairs, &params).len(), 3);
@@ -277,9 +277,9 @@ mod tests {
             estimate(1, 0.0, f64::NAN),
         ] {
             let error = common_tags(&good, &[bad]).unwrap_err();
-            assert!(matches!(error, TagError::Estimate { tag_id: 1, .. }));
+            assert!(matches!(error, TagError::Estimate { tag_id, .. } if tag_id == 1.into()));
         }
         let twice = common_tags(&known(&[(1, 99), (1, 98)]), &good);
-        assert_eq!(twice, Err(TagError::DuplicateTag { tag_id: 1 }));
+        assert_eq!(twice, Err(TagError::DuplicateTag { tag_id: 1.into() }));
     }
 }

@@ -29,7 +29,7 @@ fn outcomes<const N: usize>(path: fn(f64) -> Point2<f64>, counts: [u32; N]) -> [
                 filter.update(robot, range.clamp(0.0, 3.2)).expect("a usable reading");
                 step += 1;
             }
-            let estimate = filter.estimate(tag_id).expect("readings");
+            let estimate = filter.estimate(tag_id.into()).expect("readings");
             sums.0 += estimate.certainty;
             sums.1 += (estimate.position - tag).norm_squared();
         }

@@ -74,7 +74,7 @@ fn t_r1_four_corners_locate_a_tag_in_its_cell() {
             }
             repeats += 1;
         }
-        let estimate = filter.estimate(1).unwrap();
+        let estimate = filter.estimate(1.into()).unwrap();
         assert!((estimate.mode - tag).norm() < 1e-9, "{}", estimate.mode);
         assert!((estimate.position - tag).norm() < 1e-3, "{}", estimate.position);
         let error = (estimate.certainty - certainty).abs();
@@ -92,7 +92,7 @@ fn t_r2_three_thousand_readings_underflow_the_product_and_not_the_filter() {
     let sum: f64 = posterior.cells().iter().sum();
     assert!((sum - 1.0).abs() < 1e-9, "{sum}");
     assert!(posterior.cells().iter().all(|mass| mass.is_finite()));
-    let error = (filter.estimate(1).unwrap().position - tag).norm();
+    let error = (filter.estimate(1.into()).unwrap().position - tag).norm();
     assert!(error < 0.03, "more than half a diagonal of a cell: {error}");
 
     // Where the product is largest, and all around.
@@ -118,7 +118,7 @@ fn t_r3_a_straight_path_leaves_two_mirror_images() {
         .map(|robot| (robot, (tag - robot).norm() + noise.sample(&mut random)))
         .collect();
     let filter = filtered(&readings, &gaussian());
-    let estimate = filter.estimate(1).unwrap();
+    let estimate = filter.estimate(1.into()).unwrap();
     assert!(estimate.certainty < 0.55, "{}", estimate.certainty);
     assert!(estimate.second_peak_ratio > 0.99, "{}", estimate.second_peak_ratio);
     let mirrored = Point2::new(estimate.position.x, estimate.position.y.abs());
@@ -157,13 +157,13 @@ fn single_precision_sums_agree_with_double_ones() {
 fn far_from_the_map_origin_a_tag_is_found_as_precisely() {
     let params = FilterParams::default();
     let readings = noisy_circle(100, Point2::new(0.7, 0.5), 8);
-    let near = filtered(&readings, &params).estimate(1).unwrap();
+    let near = filtered(&readings, &params).estimate(1.into()).unwrap();
     let shift = Vector2::new(2e5, -7e5);
     let mut filter = TagFilter::new(corner() + shift, &params).unwrap();
     for &(robot, range) in &readings {
         filter.update(robot + shift, range).unwrap();
     }
-    let far = filter.estimate(1).unwrap();
+    let far = filter.estimate(1.into()).unwrap();
     assert!((far.position - shift - near.position).norm() < 1e-6);
     assert!((far.certainty - near.certainty).abs() < 1e-6);
 }
@@ -199,7 +199,7 @@ fn a_tag_first_read_straight_ahead_at_the_longest_range_lies_inside() {
                 let limit = max_range + 4.0 * sigma;
                 filter.update(robot, read.clamp(0.0, limit)).unwrap();
             }
-            let estimate = filter.estimate(1).unwrap();
+            let estimate = filter.estimate(1.into()).unwrap();
             assert!(!estimate.touches_border, "{max_range} m: {estimate:?}");
             assert!((estimate.position - tag).norm() < 2.0 * params.cell_size, "{estimate:?}");
         }
@@ -213,11 +213,11 @@ fn a_tag_first_read_straight_ahead_at_the_longest_range_lies_inside() {
 fn the_mode_is_a_cell_centre_and_the_paper_reports_it() {
     let readings = noisy_circle(200, Point2::new(0.7, 0.5), 4);
     let filter = filtered(&readings, &gaussian());
-    let estimate = filter.estimate(1).unwrap();
+    let estimate = filter.estimate(1.into()).unwrap();
     let cells = filter.frame().cells_from_point(estimate.mode);
     assert!((cells - cells.map(|x| x.floor() + 0.5)).norm() < 1e-6);
 
-    let printed = filtered(&readings, &FilterParams::paper()).estimate(1).unwrap();
+    let printed = filtered(&readings, &FilterParams::paper()).estimate(1.into()).unwrap();
     assert_eq!(FilterParams::paper().position, PositionRule::Mode);
     assert_eq!((printed.position, printed.mode), (estimate.mode, estimate.mode));
     assert!(printed.certainty <= estimate.certainty);
@@ -232,7 +232,7 @@ fn a_tag_outside_the_search_area_touches_its_border() {
         for (robot, range) in noisy_circle(120, Point2::new(0.0, y), 6) {
             filter.update(robot, range).unwrap();
         }
-        let estimate = filter.estimate(1).unwrap();
+        let estimate = filter.estimate(1.into()).unwrap();
         assert_eq!(estimate.touches_border, outside, "{estimate:?}");
     }
 }
@@ -249,7 +249,7 @@ fn the_border_is_two_cells_wide() {
             let robot = Point2::new(angle.cos(), angle.sin());
             filter.update(robot, (tag - robot).norm()).unwrap();
         }
-        let estimate = filter.estimate(1).unwrap();
+        let estimate = filter.estimate(1.into()).unwrap();
         assert!((estimate.mode - tag).norm() < 1e-6, "{estimate:?}");
         assert_eq!(estimate.touches_border, touches, "{cells_inside} cells");
     }

@@ -1,6 +1,6 @@
 //! What readings that are not as modelled do to what is believed of a tag.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 use ogm_core::{TagEstimate, TagReading};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -9,8 +9,8 @@ use rfid_loc::{FilterParams, Likelihood, localise};
 
 const TAGS: u32 = 12;
 
-fn place(tag_id: u32) -> Point2<f64> {
-    let angle = 0.5 * f64::from(tag_id);
+fn place(number: u32) -> Point2<f64> {
+    let angle = 0.5 * f64::from(number);
     Point2::new(1.7 * angle.cos(), 1.2 * angle.sin())
 }
 
@@ -24,16 +24,21 @@ fn estimates(
     for step in 0..240 {
         let angle = std::f64::consts::TAU * f64::from(step) / 240.0;
         let robot_position = Point2::new(angle.sin(), 0.7 * (2.0 * angle).sin());
-        for tag_id in 0..TAGS {
-            let range = read((place(tag_id) - robot_position).norm(), &mut random);
-            log.push(TagReading { tag_id, robot_position, range });
+        for number in 0..TAGS {
+            let range = read((place(number) - robot_position).norm(), &mut random);
+            log.push(TagReading { tag_id: number.into(), robot_position, range });
         }
     }
     localise(&log, params, &()).expect("usable parameters")
 }
 
+fn off(tag: &TagEstimate) -> Vector2<f64> {
+    let number = u32::try_from(tag.tag_id.bits()).expect("one of the twelve");
+    tag.position - place(number)
+}
+
 fn error(tag: &TagEstimate) -> f64 {
-    (tag.position - place(tag.tag_id)).norm()
+    off(tag).norm()
 }
 
 fn normal(sigma: f64) -> Normal<f64> {
@@ -52,7 +57,7 @@ fn readings_as_modelled_are_believed_and_as_near_as_their_covariance_says() {
     let mut nees = 0.0;
     for tag in &tags {
         assert!(tag.certainty > 0.9 && (0.85..1.15).contains(&tag.misfit), "{tag:?}");
-        let off = tag.position - place(tag.tag_id);
+        let off = off(tag);
         nees += (off.transpose() * tag.covariance.try_inverse().unwrap() * off)[0];
     }
     // A sum over 12 tags of χ² with two degrees of freedom lies within 12.4 and 39.4 in 95 of 100.

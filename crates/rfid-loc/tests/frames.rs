@@ -20,7 +20,7 @@ fn tags(
     source_shift: Vector2<f64>,
 ) -> [TagPair; 3] {
     let estimate = |id: u32, position: Point2<f64>| TagEstimate {
-        tag_id: id,
+        tag_id: id.into(),
         position,
         mode: position,
         covariance: Matrix2::from_diagonal_element(1e-4),

@@ -12,7 +12,7 @@ fn corner() -> Point2<f64> {
 fn impossible_readings_are_errors_and_leave_the_filter_as_it_was() {
     let mut filter = TagFilter::new(corner(), &FilterParams::default()).unwrap();
     filter.update(Point2::new(1.0, 0.5), 0.8).unwrap();
-    let before = filter.estimate(1);
+    let before = filter.estimate(1.into());
     let here = Point2::origin();
     for range in [f64::NAN, f64::INFINITY, -0.01, 3.21] {
         let error = filter.update(here, range).unwrap_err();
@@ -22,14 +22,14 @@ fn impossible_readings_are_errors_and_leave_the_filter_as_it_was() {
         let error = filter.update(robot, 1.0).unwrap_err();
         assert!(matches!(error, TagError::Position { .. }), "{robot}: {error}");
     }
-    assert_eq!(filter.estimate(1), before);
+    assert_eq!(filter.estimate(1.into()), before);
     filter.update(here, 3.19).unwrap();
 }
 
 #[test]
 fn nothing_is_known_before_the_first_reading() {
     let filter = TagFilter::new(corner(), &FilterParams::default()).unwrap();
-    assert_eq!((filter.readings(), filter.estimate(1)), (0, None));
+    assert_eq!((filter.readings(), filter.estimate(1.into())), (0, None));
 }
 
 #[test]
@@ -72,7 +72,7 @@ proptest! {
         }
         let sum: f64 = filter.posterior().cells().iter().sum();
         prop_assert!((sum - 1.0).abs() < 1e-9, "{sum}");
-        let estimate = filter.estimate(1).unwrap();
+        let estimate = filter.estimate(1.into()).unwrap();
         prop_assert!(estimate.certainty > 0.0 && estimate.certainty <= 1.0);
         let cells = filter.frame().cells_from_point(estimate.position);
         prop_assert!(cells.iter().all(|x| (-1e-9..20.0 + 1e-9).contains(x)), "{cells}");

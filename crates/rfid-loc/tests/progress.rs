@@ -31,7 +31,7 @@ fn log() -> Vec<TagReading> {
     let at = |step: u32| Point2::new(0.05 * f64::from(step), 0.2);
     let tag = Point2::new(0.7, 0.9);
     let reading = |step: u32| TagReading {
-        tag_id: step % 2,
+        tag_id: (step % 2).into(),
         robot_position: at(step),
         range: (tag - at(step)).norm(),
     };

@@ -1,15 +1,15 @@
 //! Tag logs.
 
 use nalgebra::Point2;
-use ogm_core::TagReading;
+use ogm_core::{TagId, TagReading};
 use ogm_io::{IoError, TagLogError, parse_tags, read_tags, write_tags};
 use proptest::prelude::{ProptestConfig, Strategy, any, prop_assert_eq, proptest};
 
 const HEADER: &str = "tag_id,robot_x_m,robot_y_m,range_m\n";
 
 fn reading() -> impl Strategy<Value = TagReading> {
-    (any::<u32>(), -1e6_f64..1e6, -1e6_f64..1e6, 0.0_f64..1e3).prop_map(|(tag_id, x, y, range)| {
-        TagReading { tag_id, robot_position: Point2::new(x, y), range }
+    (any::<u128>(), -1e6_f64..1e6, -1e6_f64..1e6, 0.0_f64..1e3).prop_map(|(tag_id, x, y, range)| {
+        TagReading { tag_id: TagId::from_bits(tag_id), robot_position: Point2::new(x, y), range }
     })
 }
 
@@ -40,7 +40,8 @@ proptest! {
 #[test]
 fn spreadsheets_and_windows_are_understood() {
     let text = "\u{feff}tag_id, robot_x_m, robot_y_m, range_m\r\n7, -1.5, 2e0, .25\r\n\r\n";
-    let expected = TagReading { tag_id: 7, robot_position: Point2::new(-1.5, 2.0), range: 0.25 };
+    let expected =
+        TagReading { tag_id: 7.into(), robot_position: Point2::new(-1.5, 2.0), range: 0.25 };
     assert_eq!(parse_tags(text.as_bytes()).unwrap(), [expected]);
     assert_eq!(parse_tags(HEADER.as_bytes()).unwrap(), []);
 }
@@ -59,7 +60,7 @@ fn a_bad_value_is_named_with_its_line() {
     for (value, column, quoted) in [
         ("x,1,2,3", "tag_id", "x"),
         ("-1,1,2,3", "tag_id", "-1"),
-        ("4294967296,1,2,3", "tag_id", "4294967296"),
+        ("18446744073709551616,1,2,3", "tag_id", "18446744073709551616"),
         ("1,nan,2,3", "robot_x_m", "nan"),
         ("1,1,inf,3", "robot_y_m", "inf"),
         ("1,1,,3", "robot_y_m", ""),
@@ -87,7 +88,7 @@ fn a_bad_value_is_named_with_its_line() {
 fn what_could_not_be_read_back_is_not_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("tags.csv");
-    let good = TagReading { tag_id: 1, robot_position: Point2::new(0.0, 0.0), range: 1.0 };
+    let good = TagReading { tag_id: 1.into(), robot_position: Point2::new(0.0, 0.0), range: 1.0 };
     write_tags(&path, &[good]).unwrap();
     for bad in [
         TagReading { range: -1.0, ..good },

@@ -74,7 +74,7 @@ pub(super) fn run(world: &World) -> anyhow::Result<(Vec<Run>, Vec<Believed>)> {
             let readings = tag_readings(&robot.path, &places, &params, seed)?;
             let tags = localise(&readings, &FilterParams::default(), &())?;
             believed.extend(tags.iter().filter_map(|tag| {
-                let (_, place) = places.iter().find(|(id, _)| *id == tag.tag_id)?;
+                let (_, place) = places.iter().find(|&&(id, _)| tag.tag_id == id.into())?;
                 let is_off = (tag.position - place).norm() > OFF_M;
                 Some(Believed { reader: name, is_sure: tag.certainty > SURE, is_off })
             }));

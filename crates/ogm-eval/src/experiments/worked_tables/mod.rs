@@ -1,7 +1,7 @@
 //! X1 and X2: the worked tables of the RFID paper, which must come out exactly.
 
 use nalgebra::{Matrix2, Point2};
-use ogm_core::{Outcome, Segment, TagEstimate};
+use ogm_core::{Outcome, Segment, TagEstimate, TagId};
 use ogm_vector::ogm_vector;
 use rfid_loc::{SelectionParams, common_tags, select_tags};
 
@@ -72,7 +72,7 @@ pub(crate) fn grouping_of_walls() -> Measured {
 pub(crate) fn choice_of_tags() -> anyhow::Result<Measured> {
     let estimates = |pick: fn(&(u32, f64, f64)) -> f64| {
         TABLE_3.map(|row| TagEstimate {
-            tag_id: row.0,
+            tag_id: row.0.into(),
             position: Point2::origin(),
             mode: Point2::origin(),
             covariance: Matrix2::zeros(),
@@ -86,7 +86,7 @@ pub(crate) fn choice_of_tags() -> anyhow::Result<Measured> {
     };
     let pairs = common_tags(&estimates(|row| row.1), &estimates(|row| row.2))?;
     let selected = select_tags(&pairs, &SelectionParams::default())?;
-    let ours: Vec<(u32, f64)> = match &selected {
+    let ours: Vec<(TagId, f64)> = match &selected {
         Outcome::Found(pairs) => {
             pairs.iter().map(|pair| (pair.tag_id(), pair.certainty() * 100.0)).collect()
         }
@@ -95,7 +95,7 @@ pub(crate) fn choice_of_tags() -> anyhow::Result<Measured> {
     let equal = ours
         .iter()
         .zip(&TABLE_3_ORDER)
-        .filter(|(ours, paper)| ours.0 == paper.0 && (ours.1 - paper.1).abs() < 1e-9);
+        .filter(|(ours, paper)| ours.0 == paper.0.into() && (ours.1 - paper.1).abs() < 1e-9);
     let equal = equal.count();
     let rows = TABLE_3_ORDER.iter().enumerate().map(|(rank, (id, precision))| {
         let ours =

@@ -15,7 +15,9 @@ const CLUSTER_M: f64 = 4.0;
 const RASTER_CELLS: f64 = 0.3;
 const RASTER_M: f64 = 0.5;
 /// Parts of maps that are not bent move so far by rasterisation, cells of the coarser map.
-const BEND_CELLS: f64 = 0.6;
+const BEND_CELLS: f64 = 0.4;
+/// How much more than its parts show a bent map leaves open: walls hold a part across them only.
+const BEND_HIDDEN: f64 = 2.0;
 /// Squares below which their spread says too little to be taken alone.
 const FEW_CLUSTERS: f64 = 3.0;
 /// A direction is weak if walls hold it this many times less than the best held one.
@@ -67,7 +69,8 @@ pub(crate) fn covariance(
 /// What bent maps leave open: their parts do not agree on one pose, and the one that is found need
 /// not be their mean.
 fn bent(bend: &Bend, source: &PreparedMap, resolution: f64) -> Matrix3<f64> {
-    let variance = (bend.rms_m.powi(2) - (BEND_CELLS * resolution).powi(2)).max(0.0);
+    let shown = bend.rms_m.powi(2) - (BEND_CELLS * resolution).powi(2);
+    let variance = BEND_HIDDEN * shown.max(0.0);
     let middle = source.map_from_local * source.centre;
     let weight: f64 = bend.patches.iter().map(|patch| patch.hit_m).sum();
     let spread: f64 =

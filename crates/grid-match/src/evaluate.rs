@@ -1,9 +1,8 @@
 //! All that two maps say about a pose.
 
-use nalgebra::Rotation2;
 use ogm_core::Se2;
 
-use crate::evidence::{Evidence, Relaxed};
+use crate::evidence::{Evidence, Relaxed, WallFit};
 use crate::patches::relax;
 use crate::prepare::PreparedMap;
 use crate::state::State;
@@ -26,12 +25,9 @@ pub(crate) fn evaluate(
         let second_from_first = first_from_second.inverse();
         let forth = relax(second, first, first_from_second, reach, most);
         let back = relax(first, second, &second_from_first, reach, most);
-        let mean =
-            |value: fn(&WallCounts) -> f64| 0.5 * (value(&forth.counts) + value(&back.counts));
         evidence.relaxed = Relaxed {
-            hit_m: mean(|counts| counts.hit),
-            near_miss_m: mean(|counts| counts.near_miss),
-            conflict_m: mean(|counts| counts.conflict),
+            walls: worse_first(forth.counts.fit(), back.counts.fit()),
+            cross_m: 0.5 * (forth.cross_m + back.cross_m),
             moved_m: 0.5 * (forth.moved_m + back.moved_m),
         };
     }
@@ -60,25 +56,24 @@ pub(crate) fn evaluate_rigid(
     }
     let sample_area = second.sample_area * stride as f64;
     let smaller = first.known_area().min(second.known_area());
-    // The normals of the second counts are in the frame of the second map.
-    let turn = Rotation2::new(first_from_second.theta()).into_inner();
-    let spread = (forth.spread + turn * back.spread * turn.transpose()) * 0.5;
     let mean = |value: fn(&WallCounts) -> f64| 0.5 * (value(&forth) + value(&back));
-    let [hit_m, near_miss_m, conflict_m] = [
-        mean(|counts| counts.hit),
-        mean(|counts| counts.near_miss),
-        mean(|counts| counts.conflict),
-    ];
     Evidence {
-        hit_m,
-        near_miss_m,
-        conflict_m,
+        hit_m: mean(|counts| counts.hit),
+        near_miss_m: mean(|counts| counts.near_miss),
+        conflict_m: mean(|counts| counts.conflict),
         free_m2: f64::from(free) * sample_area,
         overlap: (f64::from(known) * sample_area / smaller).min(1.0),
         same_side_m: mean(|counts| counts.same_side),
         opposite_side_m: mean(|counts| counts.opposite_side),
-        cross_m: spread.symmetric_eigenvalues().min().max(0.0),
         chance: f64::from(near) / f64::from(known.max(1)),
-        relaxed: Relaxed { hit_m, near_miss_m, conflict_m, moved_m: 0.0 },
+        relaxed: Relaxed {
+            walls: worse_first(forth.fit(), back.fit()),
+            cross_m: mean(WallCounts::cross),
+            moved_m: 0.0,
+        },
     }
+}
+
+fn worse_first(one: WallFit, other: WallFit) -> [WallFit; 2] {
+    if one.misfit() >= other.misfit() { [one, other] } else { [other, one] }
 }

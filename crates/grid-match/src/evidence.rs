@@ -18,9 +18,6 @@ pub struct Evidence {
     pub same_side_m: f64,
     /// Of [`hit_m`](Self::hit_m), seen from opposite sides, as two rooms behind one wall do.
     pub opposite_side_m: f64,
-    /// Metres of matched wall that resist a shift in the direction that walls resist least; near
-    /// zero in a corridor.
-    pub cross_m: f64,
     /// Share of what both maps know that lies within a hit of some wall: how often a hit is chance.
     pub chance: f64,
     /// The walls once every part of a map may give way a little.
@@ -32,14 +29,54 @@ pub struct Evidence {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[non_exhaustive]
 pub struct Relaxed {
-    /// As [`Evidence::hit_m`].
-    pub hit_m: f64,
-    /// As [`Evidence::near_miss_m`].
-    pub near_miss_m: f64,
-    /// As [`Evidence::conflict_m`].
-    pub conflict_m: f64,
+    /// The walls of each map on the other, those that fit worse first.
+    pub walls: [WallFit; 2],
+    /// Metres of matched wall that resist a shift of their part in the direction that it resists
+    /// least, mean of both directions: near zero in a corridor, much where there are corners.
+    pub cross_m: f64,
     /// Root mean square by which the parts moved, metres.
     pub moved_m: f64,
+}
+
+/// Walls of one map on the other, metres.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct WallFit {
+    /// On wall.
+    pub hit_m: f64,
+    /// Close to wall, but in free space.
+    pub near_miss_m: f64,
+    /// In free space, far from any wall.
+    pub conflict_m: f64,
+}
+
+/// Rate at which probability is lost with the share of a map's wall that does not fit, above half.
+const CONTRADICTION: f64 = 20.0;
+
+impl Relaxed {
+    /// The walls of both maps, their mean.
+    #[must_use]
+    pub fn mean(&self) -> WallFit {
+        let mean = |value: fn(&WallFit) -> f64| 0.5 * self.walls.iter().map(value).sum::<f64>();
+        WallFit {
+            hit_m: mean(|walls| walls.hit_m),
+            near_miss_m: mean(|walls| walls.near_miss_m),
+            conflict_m: mean(|walls| walls.conflict_m),
+        }
+    }
+}
+
+impl WallFit {
+    /// All that does not fit.
+    #[must_use]
+    pub fn against_m(&self) -> f64 {
+        self.near_miss_m + self.conflict_m
+    }
+
+    /// Share of the compared wall that does not fit.
+    pub(crate) fn misfit(&self) -> f64 {
+        self.against_m() / (self.hit_m + self.against_m()).max(1e-9)
+    }
 }
 
 impl Evidence {
@@ -54,6 +91,15 @@ impl Evidence {
             && self.same_side_m >= 0.4 * sided
             && self.same_side_m >= 0.2 * self.hit_m
             && self.chance <= 0.6
+    }
+
+    /// Share of the probability that is left where the walls of one map contradict the pose: more
+    /// of them stand in free space of the other than on wall. Of right poses none does, and what
+    /// the weights learnt does not reach so far: an empty room fits into many buildings.
+    #[must_use]
+    pub fn uncontradicted(&self) -> f64 {
+        let most = self.relaxed.walls.iter().map(WallFit::misfit).fold(0.0, f64::max);
+        (-CONTRADICTION * (most - 0.5).max(0.0)).exp()
     }
 
     /// Share of the compared wall that fits.

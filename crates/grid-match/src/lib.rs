@@ -85,7 +85,7 @@ mod work;
 
 pub use composite::{pose_probabilities, refine_pose};
 pub use error::MatchError;
-pub use evidence::{Evidence, Relaxed};
+pub use evidence::{Evidence, Relaxed, WallFit};
 pub use matching::{match_maps, match_prepared, score_pose};
 /// The grids, frames and poses that the functions here take and give.
 pub use ogm_core;

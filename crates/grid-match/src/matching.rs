@@ -96,7 +96,9 @@ fn search(
     };
     let believed = |fits: &[Fit]| {
         let scores: Vec<f64> = fits.iter().map(|fit| fit.score).collect();
-        probabilities(&scores, beliefs, &WEIGHTS)
+        let by_scores = probabilities(&scores, beliefs, &WEIGHTS);
+        let kept = fits.iter().map(|fit| fit.evidence.uncontradicted());
+        by_scores.into_iter().zip(kept).map(|(said, kept)| said * kept).collect::<Vec<f64>>()
     };
     let mut search = Search::new(first, second, bounds, Work::new(params.work_limit));
     let mut found = Vec::new();

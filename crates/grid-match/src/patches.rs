@@ -37,6 +37,8 @@ pub(crate) struct MovedPatch {
 /// Walls of a map on another, each patch where it fits best.
 pub(crate) struct RelaxedWalls {
     pub(crate) counts: WallCounts,
+    /// Metres of matched wall across the weaker direction of each patch.
+    pub(crate) cross_m: f64,
     /// Root mean square by which the patches moved, metres.
     pub(crate) moved_m: f64,
     pub(crate) patches: Vec<MovedPatch>,
@@ -140,7 +142,7 @@ impl Chain<'_> {
 
     fn summed(&self, settled: &BTreeMap<[usize; 2], (Se2, WallCounts)>) -> RelaxedWalls {
         let mut counts = WallCounts::default();
-        let (mut moved, mut points) = (0.0, 0.0);
+        let (mut cross_m, mut moved, mut points) = (0.0, 0.0, 0.0);
         let mut patches = Vec::new();
         for (place, (pose, of_patch)) in settled {
             let walls = &self.places[place];
@@ -149,10 +151,12 @@ impl Chain<'_> {
             moved += step * step * walls.len() as f64;
             points += walls.len() as f64;
             counts.merge(of_patch);
+            cross_m += of_patch.cross();
             let (hit_m, wall_m) = (of_patch.hit, walls.len() as f64 * self.length);
             patches.push(MovedPatch { centre, on_from_map: *pose, hit_m, wall_m });
         }
-        RelaxedWalls { counts, moved_m: (moved / f64::max(points, 1.0)).sqrt(), patches }
+        let moved_m = (moved / f64::max(points, 1.0)).sqrt();
+        RelaxedWalls { counts, cross_m, moved_m, patches }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::weights::WEIGHTS;
 /// Most metres of wall that make a pose surer, and of compared wall whose conflicts are taken in
 /// full; of more, the share that would be as much: larger maps are bent more.
 const FULL_WALL_M: f64 = 150.0;
-/// More free area, and more wall across both directions, makes no pose surer.
+/// More free area, and more wall across the weaker direction, makes no pose surer.
 const MOST_FREE_M2: f64 = 150.0;
 const MOST_CROSS_M: f64 = 40.0;
 
@@ -22,18 +22,16 @@ impl Evidence {
     #[must_use]
     pub fn terms(&self) -> [f64; TERMS] {
         let relaxed = &self.relaxed;
-        let against = relaxed.near_miss_m + relaxed.conflict_m;
-        let fit = ((relaxed.hit_m + 0.5) / (against + 1.0)).ln();
-        let share = share_of(relaxed.hit_m + against);
-        let rigid_share = share_of(self.hit_m + self.near_miss_m + self.conflict_m);
+        let against = relaxed.walls.map(|walls| of_full(walls.against_m(), walls.hit_m));
+        let conflict = relaxed.walls.map(|walls| of_full(walls.conflict_m, walls.hit_m));
+        let cross = relaxed.cross_m.min(MOST_CROSS_M);
         [
-            fit,
-            relaxed.hit_m.min(FULL_WALL_M).ln_1p(),
+            relaxed.mean().hit_m.min(FULL_WALL_M).ln_1p(),
+            ((cross + 1.0) / (against[0].min(against[1]) + 2.0)).ln(),
+            -conflict[0].max(conflict[1]).ln_1p(),
+            -of_full(self.near_miss_m, self.hit_m).ln_1p(),
             self.free_m2.min(MOST_FREE_M2).ln_1p(),
             self.overlap.max(LEAST_OVERLAP).ln(),
-            -(share * relaxed.conflict_m).ln_1p(),
-            -(rigid_share * self.near_miss_m).ln_1p(),
-            self.cross_m.min(MOST_CROSS_M).ln_1p(),
             -self.chance.max(LEAST_CHANCE).ln(),
         ]
     }
@@ -53,44 +51,42 @@ impl Evidence {
 /// Score of a pose about which the maps say nothing.
 pub(crate) const NOT_COMPARABLE: f64 = -12.0;
 
-fn share_of(compared_m: f64) -> f64 {
-    (FULL_WALL_M / compared_m.max(1e-9)).min(1.0)
+/// Metres of wall that speak against a pose beside `hit_m` that fit; of more than the full wall,
+/// the share that would be as much.
+fn of_full(against_m: f64, hit_m: f64) -> f64 {
+    against_m * (FULL_WALL_M / (hit_m + against_m).max(1e-9)).min(1.0)
 }
 
 #[cfg(test)]
 mod tests {
-    use crate::evidence::{Evidence, Relaxed};
+    use crate::evidence::{Evidence, Relaxed, WallFit};
     use crate::terms::Weights;
     use crate::weights::WEIGHTS;
     use proptest::prelude::{Strategy, prop_assert, proptest};
 
     fn evidence() -> impl Strategy<Value = Evidence> {
         let walls = || (0.0_f64..300.0, 0.0_f64..80.0, 0.0_f64..80.0);
-        let rest = (0.5_f64..400.0, 0.0_f64..1.0, 0.0_f64..1.0, 0.0_f64..0.6);
-        (walls(), walls(), rest, 0.0_f64..1.0).prop_map(
-            |(
-                (hit_m, near_miss_m, conflict_m),
-                relaxed,
-                (free_m2, overlap, cross, chance),
-                same,
-            )| {
-                let same_side_m = hit_m * (0.3 + 0.7 * same);
+        let walls = || {
+            walls().prop_map(|(hit_m, near_miss_m, conflict_m)| WallFit {
+                hit_m,
+                near_miss_m,
+                conflict_m,
+            })
+        };
+        let rest = (0.5_f64..400.0, 0.0_f64..1.0, 0.0_f64..60.0, 0.0_f64..0.6);
+        (walls(), [walls(), walls()], rest, 0.0_f64..1.0).prop_map(
+            |(rigid, walls, (free_m2, overlap, cross_m, chance), same)| {
+                let same_side_m = rigid.hit_m * (0.3 + 0.7 * same);
                 Evidence {
-                    hit_m,
-                    near_miss_m,
-                    conflict_m,
+                    hit_m: rigid.hit_m,
+                    near_miss_m: rigid.near_miss_m,
+                    conflict_m: rigid.conflict_m,
                     free_m2,
                     overlap,
                     same_side_m,
-                    opposite_side_m: 0.3 * (hit_m - same_side_m),
-                    cross_m: 0.5 * cross * same_side_m,
+                    opposite_side_m: 0.3 * (rigid.hit_m - same_side_m),
                     chance,
-                    relaxed: Relaxed {
-                        hit_m: relaxed.0,
-                        near_miss_m: relaxed.1,
-                        conflict_m: relaxed.2,
-                        moved_m: 0.1,
-                    },
+                    relaxed: Relaxed { walls, cross_m, moved_m: 0.1 },
                 }
             },
         )
@@ -99,32 +95,32 @@ mod tests {
     proptest! {
         #[test]
         fn more_wall_that_fits_never_lowers_the_score_and_more_conflict_never_raises_it(
-            before in evidence(), more in 0.0_f64..30.0,
+            before in evidence(), more in 0.0_f64..30.0, of in 0_usize..2,
         ) {
-            let hits = |e: &mut Evidence| {
-                e.hit_m += more;
-                e.same_side_m += more;
-                e.relaxed.hit_m += more;
-            };
-            let conflicts = |e: &mut Evidence| {
-                e.conflict_m += more;
-                e.relaxed.conflict_m += more;
-            };
-            let misses = |e: &mut Evidence| {
-                e.near_miss_m += more;
-                e.relaxed.near_miss_m += more;
-            };
             let score = before.score();
             let after = |change: &dyn Fn(&mut Evidence)| {
                 let mut changed = before;
                 change(&mut changed);
                 changed.score()
             };
-            prop_assert!(after(&hits) >= score - 1e-9);
-            prop_assert!(after(&conflicts) <= score + 1e-9);
-            prop_assert!(after(&misses) <= score + 1e-9);
+            let hits = after(&|e| {
+                e.hit_m += more;
+                e.same_side_m += more;
+                e.relaxed.walls[of].hit_m += more;
+            });
+            let conflicts = after(&|e| {
+                e.conflict_m += more;
+                e.relaxed.walls[of].conflict_m += more;
+            });
+            let misses = after(&|e| {
+                e.near_miss_m += more;
+                e.relaxed.walls[of].near_miss_m += more;
+            });
+            prop_assert!(hits >= score - 1e-9);
+            prop_assert!(conflicts <= score + 1e-9);
+            prop_assert!(misses <= score + 1e-9);
             prop_assert!(after(&|e| e.free_m2 += more) >= score - 1e-9);
-            prop_assert!(after(&|e| e.cross_m += more) >= score - 1e-9);
+            prop_assert!(after(&|e| e.relaxed.cross_m += more) >= score - 1e-9);
         }
     }
 

@@ -1,17 +1,16 @@
 //! What a score is made of, and what each part weighs.
 
 /// Number of terms of a score.
-pub const TERMS: usize = 8;
+pub const TERMS: usize = 7;
 
 /// What the terms of a score are, in the order of [`Evidence::terms`](crate::Evidence::terms).
 pub const TERM_NAMES: [&str; TERMS] = [
-    "wall that fits over wall that does not, parts of the maps giving way",
-    "wall that fits, parts giving way",
+    "wall that fits, parts of the maps giving way",
+    "wall that fits across the weaker direction of its part, over wall of the better map that does not",
+    "wall of the worse map in free space, parts giving way",
+    "wall that misses wall narrowly, maps as one piece",
     "area free in both",
     "overlap",
-    "wall in free space, parts giving way",
-    "wall that misses wall narrowly, maps as one piece",
-    "wall that fits across the weaker direction",
     "how unlikely a hit is by chance",
 ];
 

@@ -3,6 +3,7 @@
 use nalgebra::Matrix2;
 use ogm_core::Se2;
 
+use crate::evidence::WallFit;
 use crate::lattice::Slope;
 use crate::prepare::PreparedMap;
 use crate::sides::Facing;
@@ -80,6 +81,15 @@ impl WallCounts {
                 }
             }
         }
+    }
+
+    /// Metres of hits that resist a shift in the direction that they resist least.
+    pub(crate) fn cross(&self) -> f64 {
+        self.spread.symmetric_eigenvalues().min().max(0.0)
+    }
+
+    pub(crate) fn fit(&self) -> WallFit {
+        WallFit { hit_m: self.hit, near_miss_m: self.near_miss, conflict_m: self.conflict }
     }
 
     /// Metres that fit less those that do not.

@@ -1,28 +1,28 @@
 //! Weights of the score and of the probability.
 //!
 //! Written by `cargo xtask fit --seed 400000 --count 100`:
-//! 2621 pairs, 1107 with a right pose listed; loss a pair 0.3491 of the poses, 0.2154 of any of
+//! 3313 pairs, 1111 with a right pose listed; loss a pair 0.2877 of the poses, 0.1636 of any of
 //! them.
 
 use crate::terms::Weights;
 
 pub(crate) const WEIGHTS: Weights = Weights {
-    bias: -18.320,
+    bias: -10.572,
     terms: [
-        // wall that fits over wall that does not, parts of the maps giving way
-        2.748, // wall that fits, parts giving way
-        1.232, // area free in both
-        0.784, // overlap
-        2.438, // wall in free space, parts giving way
-        1.339, // wall that misses wall narrowly, maps as one piece
-        0.492, // wall that fits across the weaker direction
-        1.331, // how unlikely a hit is by chance
-        3.721,
+        // wall that fits, parts of the maps giving way
+        1.057,
+        // wall that fits across the weaker direction of its part, over wall of the better map that does not
+        2.398, // wall of the worse map in free space, parts giving way
+        2.639, // wall that misses wall narrowly, maps as one piece
+        0.120, // area free in both
+        2.552, // overlap
+        2.424, // how unlikely a hit is by chance
+        1.682,
     ],
-    any: -1.435,
-    score: 0.449,
-    lead: 0.763,
-    rival: 0.187,
-    repeats: 1.060,
-    repeats_odds: 0.072,
+    any: -1.449,
+    score: 0.573,
+    lead: 0.854,
+    rival: 0.434,
+    repeats: 1.234,
+    repeats_odds: 0.061,
 };

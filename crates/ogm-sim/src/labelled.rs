@@ -40,8 +40,10 @@ pub enum Relation {
     Overlapping,
     /// Parts of one floor that have nothing in common.
     Apart,
-    /// Two floors, of one kind or of two.
+    /// Two floors, of one kind or of two, under one set of conditions.
     Unrelated,
+    /// Two floors of two kinds that two teams visited, each under conditions of its own.
+    Strangers,
 }
 
 /// Two maps and the truth about them.
@@ -84,6 +86,7 @@ pub fn labelled_pair(
             let other = if rng.random_bool(0.5) { kind } else { other };
             unrelated([&plan, &other.draw(rng.random())], &conditions, &mut rng)
         }
+        Relation::Strangers => return strangers(kind, seed),
     }?;
     Ok(restyled(pair, conditions.styles, seed))
 }
@@ -235,6 +238,20 @@ fn apart(
 fn short_sighted(mut params: PairParams) -> PairParams {
     params.lidar.max_range = (0.75 * params.lidar.max_range).max(SHORTEST_RANGE);
     params
+}
+
+fn strangers(kind: FloorKind, seed: u64) -> Result<LabelledPair, SimError> {
+    let steps = usize::try_from(seed % (FloorKind::ALL.len() as u64 - 1)).unwrap_or(0) + 1;
+    let mut from_kind = FloorKind::ALL.into_iter().cycle().skip_while(|&other| other != kind);
+    let other = from_kind.nth(steps).unwrap_or(kind);
+    let target = labelled_pair(kind, Relation::Unrelated, seed)?;
+    let source = labelled_pair(other, Relation::Unrelated, seed)?;
+    Ok(LabelledPair {
+        source: source.target,
+        exact: target.exact && source.exact,
+        styles: [target.styles[0], source.styles[0]],
+        ..target
+    })
 }
 
 fn unrelated(

@@ -66,7 +66,10 @@ fn displacement_is_zero_at_the_truth_and_grows_with_the_error() {
 
 #[test]
 fn there_are_pairs_to_refuse_of_most_kinds_of_floor() {
-    for (relation, least) in [(Relation::Apart, 5), (Relation::Unrelated, FloorKind::ALL.len())] {
+    let all = FloorKind::ALL.len();
+    for (relation, least) in
+        [(Relation::Apart, 5), (Relation::Unrelated, all), (Relation::Strangers, all)]
+    {
         let found: Vec<_> = pairs(relation).collect();
         assert!(found.len() >= least, "{} kinds {relation:?}", found.len());
         assert!(found.iter().all(|(_, pair)| pair.truth.is_none()), "{relation:?}");

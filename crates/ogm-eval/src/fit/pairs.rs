@@ -7,9 +7,14 @@ use rayon::prelude::*;
 use super::options::FitOptions;
 use crate::judge::Truth;
 
-/// Relations of the pairs of one floor kind and seed: as many that must not be merged as that must.
-const RELATIONS: [Relation; 4] =
-    [Relation::Overlapping, Relation::Overlapping, Relation::Unrelated, Relation::Apart];
+/// Relations of the pairs of one floor kind and seed: more that must not be merged than that must.
+const RELATIONS: [Relation; 5] = [
+    Relation::Overlapping,
+    Relation::Overlapping,
+    Relation::Unrelated,
+    Relation::Apart,
+    Relation::Strangers,
+];
 
 /// How much a pair of a floor that repeats itself counts. Most buildings do not; without any the
 /// matcher would not learn that rivals are a bad sign.
@@ -73,7 +78,7 @@ pub(super) fn draw(options: &FitOptions) -> anyhow::Result<Vec<Pair>> {
     let drawn: Vec<(FloorKind, Relation, u64)> = (0..options.count)
         .flat_map(|index| FloorKind::ALL.map(|kind| (index, kind)))
         .flat_map(|(index, kind)| {
-            let seed = options.seed + 4 * index;
+            let seed = options.seed + 5 * index;
             (0_u64..).zip(RELATIONS).map(move |(offset, relation)| (kind, relation, seed + offset))
         })
         .collect();

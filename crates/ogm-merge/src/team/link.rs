@@ -210,6 +210,6 @@ fn is_apart(a_from_second: &Se2, b_from_second: &Se2, centre: Point2<f64>) -> bo
 
 /// Whether walls of one map in free space of the other say that the pose is wrong.
 pub(crate) fn contradicts(evidence: &Evidence) -> bool {
-    let walls = &evidence.relaxed;
+    let walls = evidence.relaxed.mean();
     evidence.is_comparable() && walls.conflict_m > VETO_M + walls.hit_m + walls.near_miss_m
 }

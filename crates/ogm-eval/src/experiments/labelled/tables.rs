@@ -131,7 +131,8 @@ pub(super) fn to_refuse(judged: &[Judged]) -> Table {
         let merged = share(count(&pairs, Judged::is_merged), pairs.len());
         vec![name.to_owned(), pairs.len().to_string(), merged]
     };
-    let apart = |one: &Judged| one.relation == Relation::Apart;
+    let is = |relation| move |one: &Judged| one.relation == relation;
+    let apart = is(Relation::Apart);
     let repeating: Vec<bool> = judged
         .iter()
         .filter(|one| apart(one))
@@ -146,7 +147,8 @@ pub(super) fn to_refuse(judged: &[Judged]) -> Table {
         caption: "Pairs to refuse, and how many were merged all the same.".to_owned(),
         header: ["maps", "pairs", "merged"].map(str::to_owned).to_vec(),
         rows: vec![
-            row("two floors", &|one| !apart(one)),
+            row("two floors", &is(Relation::Unrelated)),
+            row("two floors of two kinds, other robots", &is(Relation::Strangers)),
             row("two parts of a floor that does not repeat", &|one| {
                 apart(one) && !one.kind.repeats()
             }),

@@ -64,7 +64,8 @@ impl Fused {
                 reach.read(&around, said);
             }
             if let Rule::KeepWalls(keep) = rule {
-                keep.place(reaches, &mut said, around, width, &mut walls);
+                walls.clear(around, width);
+                keep.place(reaches, &mut said, &mut walls, progress)?;
             }
             for (row, cells) in (first..last).zip(output.chunks_exact_mut(width)) {
                 done.step()?;

@@ -1,9 +1,7 @@
 //! The rule that loses no wall: near another it is the same wall, else it stays.
 
-use std::ops::Range;
-
 use nalgebra::Point2;
-use ogm_core::{CellIndex, GridFrame, Occupancy};
+use ogm_core::{Cancelled, CellIndex, GridFrame, Occupancy, Progress};
 
 use crate::placed::{PlacedMap, surest_first};
 use crate::rows::{Reach, Said};
@@ -67,23 +65,26 @@ impl<'a> KeepWalls<'a> {
         }
     }
 
-    /// Decides which walls of `said`, what each map says in `rows`, are walls of the output: all of
-    /// the surest map, and of every other one those that are not near such a wall, with what joins
-    /// them to it, so that a wall that goes on where a surer map ends has no gap.
+    /// Decides which walls of `said`, what each map says in the rows of the blank `walls`, are walls
+    /// of the output: all of the surest map, and of every other one those that are not near such a
+    /// wall, with what joins them to it, so that a wall that goes on where a surer map ends has no
+    /// gap. Of a map whose cells are many of the output's it looks far around each wall, which takes
+    /// long and can be ended.
     pub(crate) fn place(
         &self,
         reaches: &[Reach<'_>],
         said: &mut [Said],
-        rows: Range<usize>,
-        width: usize,
         walls: &mut Walls,
-    ) {
-        walls.clear(rows, width);
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         let mut left_out = Vec::new();
         for (by, &map) in (1..).zip(&self.order) {
             let said = &mut said[map];
             left_out.clear();
             for row in said.rows.clone() {
+                if progress.is_cancelled() {
+                    return Err(Cancelled);
+                }
                 for (column, &cell) in said.columns.clone().zip(said.row(row)) {
                     if self.tables.class(cell) != SAID_OCCUPIED {
                         continue;
@@ -112,6 +113,7 @@ impl<'a> KeepWalls<'a> {
                 }
             }
         }
+        Ok(())
     }
 
     /// Fuses a row; `contradicted` hears of every conflict: its column, the maps that say occupied

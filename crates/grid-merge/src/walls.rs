@@ -58,6 +58,9 @@ impl Walls {
         column: usize,
         by: u16,
     ) -> Option<bool> {
+        if by == 1 {
+            return None;
+        }
         let (row, column) = (row.cast_signed(), column.cast_signed());
         let is_surer = |&&[right, up]: &&[isize; 2]| {
             let near = self.at(row + up, column + right);

@@ -59,7 +59,8 @@ pub(crate) struct MergeArgs {
     /// The maps, or folders of maps; the frame of the first is kept
     #[arg(value_name = "MAP.yaml", required = true, num_args = 1..)]
     pub(crate) maps: Vec<PathBuf>,
-    /// The merged map; its image goes beside it
+    /// The merged map; its image goes beside it. OUT.mcap, in builds with bags, holds it on /map in
+    /// frame world, and where the maps' frames lie there on /tf_static
     #[arg(short, long, value_name = "OUT.yaml")]
     pub(crate) output: PathBuf,
     /// Writes what was found and done as JSON
@@ -103,7 +104,8 @@ pub(crate) struct MergeArgs {
     /// Metres a cell of the merged map [default: that of the first map]
     #[arg(long, value_name = "M", value_parser = metres)]
     pub(crate) resolution: Option<f64>,
-    /// Names of the maps' frames in the ROS command that is printed, in the order of the maps
+    /// Names of the maps' frames in the ROS command that is printed and in a bag, in the order of the
+    /// maps
     /// [default: robot1/map,robot2/map,…]
     #[arg(long, value_name = "NAME,NAME", value_delimiter = ',')]
     pub(crate) frames: Vec<String>,

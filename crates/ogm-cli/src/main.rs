@@ -7,6 +7,8 @@ mod alignments;
 mod answer;
 mod apply;
 mod args;
+#[cfg(feature = "bags")]
+mod bag;
 mod bent;
 mod drawn;
 mod ending;

@@ -67,10 +67,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     drop(bar);
 
     // The map lies ready before anything is in place, and is put there last.
-    let staged = made
-        .as_ref()
-        .map(|made| Staged::write(&args.output, &made.merged.map, args.force, quiet))
-        .transpose()?;
+    let staged = made.as_ref().map(|made| staged(made, args)).transpose()?;
     for picture in pictures {
         let path = picture.path.display();
         if let Some(png) = picture.png {
@@ -153,7 +150,7 @@ fn check_known(args: &MergeArgs) -> Result<(), UsageError> {
 
 /// Makes sure that the outputs are named as what they are.
 fn check_names(args: &MergeArgs) -> Result<(), UsageError> {
-    output::check_map(&args.output)?;
+    output::check_merged(&args.output)?;
     pictures_asked(args).try_for_each(output::check_picture)?;
     if args.search.json && side_outputs(args).any(output::is_standard) {
         let message = "--json takes standard output; name a file for the other output";
@@ -176,6 +173,17 @@ struct Picture<'a> {
     /// `None` where there is nothing to draw.
     png: Option<Vec<u8>>,
     remark: Option<&'static str>,
+}
+
+fn staged(made: &Made<'_>, args: &MergeArgs) -> anyhow::Result<Staged> {
+    let (map, force, quiet) = (&made.merged.map, args.force, args.search.quiet);
+    #[cfg(feature = "bags")]
+    if output::is_bag(&args.output) {
+        let bytes = crate::bag::bytes_of(map, made.component, &args.frames)
+            .with_context(|| format!("cannot make {}", args.output.display()))?;
+        return Ok(Staged::bag(&args.output, bytes, force, quiet));
+    }
+    Staged::write(&args.output, map, force, quiet)
 }
 
 fn page(
@@ -201,7 +209,10 @@ fn check_outputs<'a>(
     logs: impl Iterator<Item = &'a Path>,
 ) -> anyhow::Result<()> {
     let image = output::image_of(&args.output);
-    let mut outputs = vec![args.output.as_path(), &image];
+    let mut outputs = vec![args.output.as_path()];
+    if !output::is_bag(&args.output) {
+        outputs.push(&image);
+    }
     outputs.extend(side_outputs(args));
     let inputs: Vec<&Path> = inputs.iter().flat_map(Input::paths).chain(logs).collect();
     output::check(&outputs, &inputs, args.force)

@@ -34,6 +34,14 @@ pub(crate) fn poses_of(
     Ok(poses)
 }
 
+/// The name of the frame of `map`, by its place on the command line, where `--frames` gives some.
+pub(crate) fn frame_of(map: usize, frames: &[String]) -> String {
+    match frames.get(map) {
+        Some(frame) => frame.clone(),
+        None => format!("robot{}/map", map + 1),
+    }
+}
+
 fn listed(maps: &[&Path]) -> String {
     maps.iter().map(|map| map.display().to_string()).collect::<Vec<_>>().join(", ")
 }

@@ -95,6 +95,26 @@ pub(crate) fn check_map(yaml: &Path) -> Result<(), UsageError> {
     Ok(())
 }
 
+/// Makes sure that `output` can be the name of a merged map, a bag being one.
+pub(crate) fn check_merged(output: &Path) -> Result<(), UsageError> {
+    if !is_bag(output) {
+        return check_map(output);
+    }
+    if cfg!(feature = "bags") {
+        return Ok(());
+    }
+    let message = format!(
+        "-o {}: this build writes no bags; name a .yaml, or build with --features bags",
+        output.display()
+    );
+    Err(UsageError(message))
+}
+
+/// Whether an output is a bag by its name.
+pub(crate) fn is_bag(output: &Path) -> bool {
+    has_ending(output, &["mcap"])
+}
+
 fn added(path: &Path) -> PathBuf {
     if path.is_dir() || path.file_name().is_none() {
         return path.join("map.yaml");
@@ -149,8 +169,20 @@ pub(crate) fn write(output: &Path, bytes: &[u8], force: bool) -> anyhow::Result<
 /// A map that lies ready to be put in place, and Ctrl-C held back until it is.
 #[derive(Debug)]
 pub(crate) struct Staged {
-    map: StagedMap,
+    output: Lying,
     _bar: Bar,
+}
+
+#[derive(Debug)]
+enum Lying {
+    Map(StagedMap),
+    /// In memory: it is one file, and small.
+    #[cfg(feature = "bags")]
+    Bag {
+        path: PathBuf,
+        bytes: Vec<u8>,
+        force: bool,
+    },
 }
 
 impl Staged {
@@ -163,10 +195,23 @@ impl Staged {
     ) -> anyhow::Result<Self> {
         let options = WriteOptions { overwrite: force, ..WriteOptions::default() };
         let bar = Bar::start("writing", quiet);
-        Ok(Self { map: StagedMap::write(yaml, map, &options, &bar)?, _bar: bar })
+        let map = StagedMap::write(yaml, map, &options, &bar)?;
+        Ok(Self { output: Lying::Map(map), _bar: bar })
+    }
+
+    /// Holds the bytes of a bag.
+    #[cfg(feature = "bags")]
+    pub(crate) fn bag(path: &Path, bytes: Vec<u8>, force: bool, quiet: bool) -> Self {
+        let path = path.to_owned();
+        Self { output: Lying::Bag { path, bytes, force }, _bar: Bar::start("writing", quiet) }
     }
 
     pub(crate) fn put_in_place(self) -> anyhow::Result<()> {
-        Ok(self.map.put_in_place()?)
+        match self.output {
+            Lying::Map(map) => map.put_in_place()?,
+            #[cfg(feature = "bags")]
+            Lying::Bag { path, bytes, force } => write_file(&path, &bytes, force)?,
+        }
+        Ok(())
     }
 }

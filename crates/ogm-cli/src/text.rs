@@ -10,6 +10,7 @@ use ogm_merge::TeamReport;
 use crate::answer::PairAnswer;
 use crate::args::MergeArgs;
 use crate::merged::{Conflict, MergeAnswer};
+use crate::named::frame_of;
 use crate::terminal::highlight;
 
 /// Standing for "merged", "ambiguous" and "no-match".
@@ -121,10 +122,7 @@ pub(crate) fn merge(answer: &MergeAnswer, merged: Option<&Merged>, args: &MergeA
     }
     said += &conflicts(merged, &output.conflicts, answer);
     let first_from_reference = first.reference_from_map.inverse();
-    let frame = |map: usize| match args.frames.get(map) {
-        Some(frame) => frame.clone(),
-        None => format!("robot{}/map", map + 1),
-    };
+    let frame = |map| frame_of(map, &args.frames);
     for other in others {
         let first_from_other = first_from_reference * other.reference_from_map;
         said += &static_transform(&first_from_other, [&frame(first.map), &frame(other.map)]);

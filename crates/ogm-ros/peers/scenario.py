@@ -88,7 +88,8 @@ def error_of(poses, truth, reference, robot):
 
 
 def judged(seen, truth):
-    """Errors of every transform that was published; asserts that the frame stands still."""
+    """Who holds the world, when each robot first had its right place, poses that were wrong, and the
+    last errors; asserts that the frame stands still."""
     maps = [it for it in seen if it["kind"] == "map"]
     transforms = [it for it in seen if it["kind"] == "tf"]
     assert maps and transforms, "nothing was published"
@@ -103,17 +104,18 @@ def judged(seen, truth):
     # Whoever was there first holds the world.
     reference = next(iter(transforms[0]["poses"])).removesuffix("/map")
     start = transforms[0]["poses"][f"{reference}/map"]
-    placed_at, wrong, last = {}, [], {}
+    right_at, wrong, last = {}, [], {}
     for it in transforms:
         assert it["poses"][f"{reference}/map"] == start, "the world moved"
         for frame in it["poses"]:
             robot = frame.removesuffix("/map")
             error = error_of(it["poses"], truth, reference, robot)
-            placed_at.setdefault(robot, it["at"])
+            if error[0] <= FAR_M and error[1] <= FAR_RAD:
+                right_at.setdefault(robot, it["at"])
             last[robot] = error
             if error[0] > WRONG_M or error[1] > WRONG_RAD:
                 wrong.append((robot, error))
-    return placed_at, wrong, last
+    return reference, right_at, wrong, last
 
 
 def median(numbers):

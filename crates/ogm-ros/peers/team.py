@@ -1,11 +1,12 @@
 """Robots that publish the maps of a recorded drive, a map a second, through CycloneDDS.
 
-team.py FOLDER [--start SECOND] [--only ROBOT]
+team.py FOLDER [--start SECOND] [--only ROBOT] [--hold SECONDS]
 """
 
 import argparse
 import math
 import pathlib
+import random
 import time
 
 from cyclonedds.domain import DomainParticipant
@@ -24,6 +25,15 @@ def move(origin, x, y, yaw):
     origin.orientation = ros2.Quaternion(z=math.sin(half), w=math.cos(half))
 
 
+def speckled(grid, rng):
+    """The map with some of its free cells occupied, as when somebody walks by."""
+    cells = bytearray(grid.data)
+    for cell in rng.sample(range(len(cells)), len(cells) // 1000):
+        if cells[cell] == 0:
+            cells[cell] = 100
+    grid.data = bytes(cells)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("folder", type=pathlib.Path)
@@ -31,6 +41,7 @@ def main():
     parser.add_argument("--seconds", type=int)
     parser.add_argument("--only")
     parser.add_argument("--moved", help="X,Y,RAD: the map frame in that of the recording")
+    parser.add_argument("--hold", type=int, default=0, help="how long the last maps go on to change")
     args = parser.parse_args()
     robots = sorted(path for path in args.folder.iterdir() if path.is_dir())
     robots = [path for path in robots if args.only in (None, path.name)]
@@ -41,11 +52,16 @@ def main():
         writers.append((DataWriter(participant, topic, qos=ros2.latched()), path))
     began = time.time()
     frames = sorted(path.name for path in robots[0].glob("*.cdr"))[args.start :][: args.seconds]
+    driven = len(frames)
+    frames += frames[-1:] * args.hold
+    rng = random.Random(1)
     for turn, frame in enumerate(frames):
         for writer, path in writers:
             grid = ros2.OccupancyGrid.deserialize((path / frame).read_bytes())
             if args.moved:
                 move(grid.info.origin, *map(float, args.moved.split(",")))
+            if turn >= driven:
+                speckled(grid, rng)
             now = time.time()
             grid.header.stamp = ros2.Time(int(now), int(now % 1 * 1e9))
             writer.write(grid)

@@ -5,11 +5,12 @@ use std::fmt::Debug;
 use std::path::Path;
 
 use ogm_io::ros::{
-    Header, MapMetaData, OccupancyGridMessage, Point, Pose, Quaternion, Time, from_cdr, to_cdr,
+    Header, MapMetaData, OccupancyGridMessage, Point, Pose, Quaternion, TfMessage, Time,
+    TransformStamped, from_cdr, to_cdr,
 };
 use ogm_ros::message::{
     DiagnosticArray, DiagnosticStatus, KeyValue, OccupancyGridUpdate, PoseWithCovarianceStamped,
-    Text, TfMessage, TransformStamped,
+    Text,
 };
 use serde::Serialize;
 use serde::de::DeserializeOwned;

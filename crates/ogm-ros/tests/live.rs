@@ -2,9 +2,9 @@
 #![expect(clippy::unwrap_used, reason = "a test")]
 
 use ogm_core::{OccupancyGrid, Se2};
-use ogm_io::ros::{Header, OccupancyGridMessage, Pose, Time, from_cdr, to_cdr};
+use ogm_io::ros::{Header, OccupancyGridMessage, Pose, TfMessage, Time, from_cdr, to_cdr};
 use ogm_ros::live::{Limits, Live, LiveParams, Output, SavedLive, Step};
-use ogm_ros::message::{DiagnosticArray, PoseWithCovarianceStamped, Text, TfMessage};
+use ogm_ros::message::{DiagnosticArray, PoseWithCovarianceStamped, Text};
 use ogm_sim::{FloorPlan, LidarParams, MappingParams, PairParams, SimulatedPair, simulate_pair};
 
 fn pair(seed: u64) -> SimulatedPair {

@@ -29,6 +29,29 @@ fn names_that_are_no_map_s_are_refused_with_one_that_is() {
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
 }
 
+#[cfg(not(feature = "bags"))]
+#[test]
+fn a_bag_is_refused_by_a_build_that_writes_none() {
+    let folder = tempdir().unwrap();
+    let (_, complained) = ends_with(2, folder.path(), &format!("{MERGE} -o {{T}}/m.mcap"));
+    assert!(complained.contains("--features bags"), "{complained}");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 0);
+}
+
+#[cfg(feature = "bags")]
+#[test]
+fn a_merged_map_in_a_bag_is_the_one_in_files_and_is_the_same_bytes_again() {
+    let folder = tempdir().unwrap();
+    for name in ["m.mcap", "again.mcap", "m.yaml"] {
+        ends_with(0, folder.path(), &format!("{MERGE} -o {{T}}/{name}"));
+    }
+    let read = |name: &str| fs::read(folder.path().join(name)).unwrap();
+    assert_eq!(read("m.mcap"), read("again.mcap"));
+    let (same, _) = ends_with(0, folder.path(), "align {T}/m.yaml {T}/m.mcap:/map");
+    assert!(same.contains("(identity)") && same.contains("walls agree: 100 %"), "{same}");
+    ends_with(1, folder.path(), &format!("{MERGE} -o {{T}}/m.mcap"));
+}
+
 #[test]
 fn pictures_are_not_named_as_something_else() {
     let folder = tempdir().unwrap();

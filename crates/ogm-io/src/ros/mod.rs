@@ -5,8 +5,10 @@ mod cdr;
 mod error;
 mod grid;
 mod pose;
+mod transform;
 
 pub use basic::{Header, Point, Pose, Quaternion, Time};
 pub use cdr::{from_cdr, to_cdr};
 pub use error::MessageError;
 pub use grid::{MapMetaData, OccupancyGridMessage};
+pub use transform::{TfMessage, TransformStamped};

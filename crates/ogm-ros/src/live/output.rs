@@ -1,9 +1,9 @@
 //! What there is to publish.
 
 use ogm_io::OCCUPANCY_GRID_DEFINITION;
-use ogm_io::ros::OccupancyGridMessage;
+use ogm_io::ros::{OccupancyGridMessage, TfMessage};
 
-use crate::message::{DiagnosticArray, TfMessage};
+use crate::message::DiagnosticArray;
 
 /// What a message is about.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

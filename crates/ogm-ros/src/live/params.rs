@@ -4,12 +4,17 @@ use std::collections::BTreeMap;
 
 use ogm_merge::{FusionParams, RobotPrior, SessionParams};
 
+/// Probability that a join must reach. A team is decided about anew whenever maps have grown, so
+/// that the most misleading of many moments counts, and others drive by what is published; two
+/// maps on disk are decided about once.
+const ACCEPT: f64 = 0.99;
+
 /// How the maps of a running team are merged.
 #[derive(Debug, Clone)]
 pub struct LiveParams {
     /// The frame of the merged map: `world`.
     pub world_frame: String,
-    /// How maps are matched and placed.
+    /// How maps are matched and placed; a join must reach a probability of 0.99.
     pub session: SessionParams,
     /// How they become one.
     pub fusion: FusionParams,
@@ -21,9 +26,11 @@ pub struct LiveParams {
 
 impl Default for LiveParams {
     fn default() -> Self {
+        let mut session = SessionParams::default();
+        session.align.matching.accept = ACCEPT;
         Self {
             world_frame: "world".to_owned(),
-            session: SessionParams::default(),
+            session,
             fusion: FusionParams::default(),
             priors: BTreeMap::new(),
             limits: Limits::default(),

@@ -1,9 +1,7 @@
 //! Where robots' frames lie, as it was last published.
 
 use ogm_core::Se2;
-use ogm_io::ros::{Header, Time};
-
-use crate::message::{TfMessage, TransformStamped};
+use ogm_io::ros::{Header, TfMessage, Time, TransformStamped};
 
 /// A frame in the world.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,8 @@
 //! Where frames lie in each other, as tf2 has it.
 
-use ogm_io::ros::{Header, Pose};
 use serde::{Deserialize, Serialize};
+
+use super::basic::{Header, Pose};
 
 /// `tf2_msgs/msg/TFMessage`.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]

@@ -29,7 +29,7 @@ fn main() -> Done {
         fs::create_dir_all(&folder)?;
         Ok(fs::write(folder.join(name), bytes)?)
     };
-    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fixtures/plan-a");
+    let fixtures = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../fixtures/plan-a");
 
     let yaml = fs::read_to_string(fixtures.join("target.yaml"))?;
     let with_anchor = format!("{yaml}mode: trinary\nx: {{a: [1, &b 2], c: *b}}\n");

@@ -7,9 +7,6 @@ use ogm_core::{CellIndex, ClassThresholds, OccupancyGrid, Se2};
 
 /// One point stands for the wall in a square of this side, metres, and of a cell at least.
 const SPACING_M: f64 = 0.1;
-/// Most points of a map: 26 km of wall at the least spacing. Longer walls get fewer points a metre,
-/// for the patches of a deformation grow with the map, and their number does not.
-const MOST_POINTS: usize = 1 << 18;
 /// The wall around a point is looked at within this, metres, and these spacings at least.
 const AROUND_M: f64 = 0.3;
 const AROUND: f64 = 2.5;
@@ -70,17 +67,8 @@ impl Walls {
         frame_from_map: &Se2,
         thresholds: &ClassThresholds,
     ) -> Self {
-        Self::of_at_most(MOST_POINTS, map, frame_from_map, thresholds)
-    }
-
-    fn of_at_most(
-        most_points: usize,
-        map: &OccupancyGrid,
-        frame_from_map: &Se2,
-        thresholds: &ClassThresholds,
-    ) -> Self {
         let resolution = map.frame().resolution();
-        let mut spacing = SPACING_M.max(1.01 * resolution);
+        let spacing = SPACING_M.max(1.01 * resolution);
         let mut faces: BTreeMap<[i64; 2], Face> = BTreeMap::new();
         for (index, cell) in map.cells().indexed() {
             if !thresholds.is_occupied(*cell) {
@@ -92,10 +80,6 @@ impl Walls {
             face.place += map.frame().cell_centre(index).coords;
             face.free += map.frame().map_from_grid() * free;
             face.cells += 1.0;
-            if faces.len() > most_points {
-                spacing *= 2.0;
-                faces = in_larger_squares(faces);
-            }
         }
         let bare = faces.into_values().map(|face| {
             let free = face.free / face.cells;
@@ -186,24 +170,12 @@ impl Walls {
 }
 
 /// The cells of a wall that border on free space, within a square.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Default)]
 struct Face {
     place: Vector2<f64>,
     /// Sum of the directions into the free space.
     free: Vector2<f64>,
     cells: f64,
-}
-
-/// The same in squares of twice the side.
-fn in_larger_squares(faces: BTreeMap<[i64; 2], Face>) -> BTreeMap<[i64; 2], Face> {
-    let mut larger: BTreeMap<[i64; 2], Face> = BTreeMap::new();
-    for (at, face) in faces {
-        let sum = larger.entry(at.map(|place| place.div_euclid(2))).or_default();
-        sum.place += face.place;
-        sum.free += face.free;
-        sum.cells += face.cells;
-    }
-    larger
 }
 
 /// The direction from a cell into the free cells around it, zero where they lie on both sides;
@@ -231,32 +203,4 @@ fn free_around(
 #[expect(clippy::cast_possible_truncation, reason = "saturates far from any map")]
 pub(super) fn square(place: Vector2<f64>, side: f64) -> [i64; 2] {
     [(place.x / side).floor() as i64, (place.y / side).floor() as i64]
-}
-
-#[cfg(test)]
-mod tests {
-    use super::Walls;
-    use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
-
-    #[test]
-    fn of_many_walls_fewer_points_lie_on_the_same_lines() {
-        let (width, height) = (400, 300);
-        let cells = (0..width * height).map(|at| match at / width % 60 {
-            30 | 31 => Occupancy::OCCUPIED,
-            _ => Occupancy::FREE,
-        });
-        let frame = GridFrame::new(0.05, Se2::identity()).unwrap();
-        let map = OccupancyGrid::new(frame, Grid::new(width, height, cells.collect()).unwrap());
-        let walls = |most| {
-            Walls::of_at_most(most, &map, &Se2::identity(), &ClassThresholds::default()).points
-        };
-        let (all, few) = (walls(usize::MAX), walls(300));
-        assert!(all.len() > 900, "{}", all.len());
-        assert!((100..=300).contains(&few.len()), "{}", few.len());
-        for wall in few {
-            let off = wall.at.y.rem_euclid(3.0) - 1.55;
-            assert!(off.abs() < 0.03, "{} m off its wall", off);
-            assert!(wall.normal.is_some_and(|normal| normal.y.abs() > 0.99), "{wall:?}");
-        }
-    }
 }

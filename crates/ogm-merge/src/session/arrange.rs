@@ -185,7 +185,7 @@ impl Arranging<'_> {
                     let maps = [a, b].map(|standing| &self.prepared[standing.map]);
                     let evidence = score_pose(maps[0], maps[1], &a_from_b)?;
                     if contradicts(&evidence) {
-                        let walls = evidence.relaxed.mean();
+                        let walls = evidence.relaxed.walls[0];
                         let (conflict_m, hit_m) = (walls.conflict_m, walls.hit_m);
                         return Ok(Some(Contradiction { conflict_m, hit_m }));
                     }

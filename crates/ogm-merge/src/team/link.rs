@@ -1,6 +1,6 @@
 //! How two groups of maps may lie on each other, by what all of their walls say together.
 
-use grid_match::{Evidence, PreparedMap, pose_probabilities, refine_pose, score_pose};
+use grid_match::{Evidence, PreparedMap, WallFit, pose_probabilities, refine_pose, score_pose};
 use nalgebra::Point2;
 use ogm_core::{RelativePose, Se2, log_odds, probability_from_log_odds, wrap_angle};
 
@@ -210,6 +210,6 @@ fn is_apart(a_from_second: &Se2, b_from_second: &Se2, centre: Point2<f64>) -> bo
 
 /// Whether walls of one map in free space of the other say that the pose is wrong.
 pub(crate) fn contradicts(evidence: &Evidence) -> bool {
-    let walls = evidence.relaxed.mean();
-    evidence.is_comparable() && walls.conflict_m > VETO_M + walls.hit_m + walls.near_miss_m
+    let contradicts = |walls: &WallFit| walls.conflict_m > VETO_M + walls.hit_m + walls.near_miss_m;
+    evidence.is_comparable() && evidence.relaxed.walls.iter().any(contradicts)
 }

@@ -94,10 +94,9 @@ impl Evidence {
     }
 
     /// Share of the probability that is left where the walls of one map contradict the pose: more
-    /// of them stand in free space of the other than on wall. Of right poses none does, and what
-    /// the weights learnt does not reach so far: an empty room fits into many buildings.
-    #[must_use]
-    pub fn uncontradicted(&self) -> f64 {
+    /// of them stand in free space of the other than on wall. An empty room fits so into many
+    /// buildings, and what the weights learnt does not reach so far.
+    pub(crate) fn uncontradicted(&self) -> f64 {
         let most = self.relaxed.walls.iter().map(WallFit::misfit).fold(0.0, f64::max);
         (-CONTRADICTION * (most - 0.5).max(0.0)).exp()
     }
@@ -107,5 +106,37 @@ impl Evidence {
     pub fn agreement(&self) -> f64 {
         let compared = self.hit_m + self.near_miss_m + self.conflict_m;
         if compared > 0.0 { self.hit_m / compared } else { 0.0 }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{Evidence, Relaxed, WallFit};
+    use proptest::prelude::{prop_assert, proptest};
+
+    fn kept(hit_m: f64, near_miss_m: f64, conflict_m: f64) -> f64 {
+        let agrees = WallFit { hit_m: 20.0, ..WallFit::default() };
+        let walls = [WallFit { hit_m, near_miss_m, conflict_m }, agrees];
+        Evidence { relaxed: Relaxed { walls, ..Relaxed::default() }, ..Evidence::default() }
+            .uncontradicted()
+    }
+
+    proptest! {
+        #[test]
+        fn a_map_contradicts_a_pose_once_more_of_its_wall_misses_than_fits(
+            hit_m in 0.1_f64..50.0, near_miss_m in 0.0_f64..50.0, conflict_m in 0.0_f64..50.0,
+            more in 0.1_f64..20.0,
+        ) {
+            let before = kept(hit_m, near_miss_m, conflict_m);
+            let is_contradicted = near_miss_m + conflict_m > hit_m;
+            prop_assert!((before < 1.0) == is_contradicted && before > 0.0);
+            prop_assert!(kept(hit_m + more, near_miss_m, conflict_m) >= before);
+            prop_assert!(kept(hit_m, near_miss_m, conflict_m + more) <= before);
+        }
+    }
+
+    #[test]
+    fn where_two_thirds_of_a_maps_wall_miss_a_sure_pose_is_no_longer_believed() {
+        assert!(kept(10.0, 0.0, 20.0) < 0.05);
     }
 }

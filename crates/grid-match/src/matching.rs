@@ -142,9 +142,11 @@ fn search(
     )?;
     let mut found = modes(found, second.centre);
     found.retain(|fit| fit.score > NOT_COMPARABLE);
-    let mut probabilities = believed(&found);
-    probabilities.truncate(MOST_HYPOTHESES);
-    let believed: Vec<(Fit, f64)> = found.into_iter().zip(probabilities).collect();
+    let probabilities = believed(&found);
+    let mut believed: Vec<(Fit, f64)> = found.into_iter().zip(probabilities).collect();
+    // A pose that a map contradicts may fit better and be less probable.
+    believed.sort_by(|a, b| b.1.total_cmp(&a.1));
+    believed.truncate(MOST_HYPOTHESES);
     let hypotheses = each(
         &believed,
         || (),

@@ -6,7 +6,7 @@ use ogm_core::{Progress, Se2};
 use super::group::{Group, Standing};
 use crate::MergeError;
 use crate::team::{
-    Evidences, Join, KnownPose, Matched, Part, agreeing, contradicts, given, join, placed,
+    Evidences, Join, KnownPose, Matched, Part, agreeing, contradiction, given, join, placed,
     probability_between,
 };
 
@@ -184,8 +184,7 @@ impl Arranging<'_> {
                     let a_from_b = a.group_from_map.between(&b.group_from_map);
                     let maps = [a, b].map(|standing| &self.prepared[standing.map]);
                     let evidence = score_pose(maps[0], maps[1], &a_from_b)?;
-                    if contradicts(&evidence) {
-                        let walls = evidence.relaxed.walls[0];
+                    if let Some(walls) = contradiction(&evidence) {
                         let (conflict_m, hit_m) = (walls.conflict_m, walls.hit_m);
                         return Ok(Some(Contradiction { conflict_m, hit_m }));
                     }

@@ -126,7 +126,7 @@ impl Evidences<'_> {
             for &(b, second_from_b) in &second.members {
                 let a_from_b = first_from_a.between(&(*first_from_second * second_from_b));
                 let evidence = score_pose(&self.prepared[a], &self.prepared[b], &a_from_b)?;
-                if contradicts(&evidence) {
+                if contradiction(&evidence).is_some() {
                     return Ok(true);
                 }
             }
@@ -208,8 +208,8 @@ fn is_apart(a_from_second: &Se2, b_from_second: &Se2, centre: Point2<f64>) -> bo
     turn > APART.1 || (a - b).norm() > APART.0
 }
 
-/// Whether walls of one map in free space of the other say that the pose is wrong.
-pub(crate) fn contradicts(evidence: &Evidence) -> bool {
+/// The walls of one map, if so many stand in free space of the other that the pose is wrong.
+pub(crate) fn contradiction(evidence: &Evidence) -> Option<WallFit> {
     let contradicts = |walls: &WallFit| walls.conflict_m > VETO_M + walls.hit_m + walls.near_miss_m;
-    evidence.is_comparable() && evidence.relaxed.walls.iter().any(contradicts)
+    evidence.relaxed.walls.into_iter().find(contradicts).filter(|_| evidence.is_comparable())
 }

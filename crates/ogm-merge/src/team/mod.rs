@@ -18,7 +18,7 @@ use crate::merge::{Component, Member};
 use crate::{MergeError, RobotMap};
 
 pub(crate) use self::join::join;
-pub(crate) use self::link::{Evidences, contradicts};
+pub(crate) use self::link::{Evidences, contradiction};
 pub(crate) use self::pairs::{Matched, Proposal, given, matched, prepared};
 pub(crate) use self::part::Part;
 pub(crate) use self::place::{Place, agreeing, placed};

@@ -23,7 +23,7 @@ type Done<T = ()> = Result<T, Box<dyn Error>>;
 const SIDE: u32 = 12;
 
 fn main() -> Done {
-    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("corpus");
+    let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/corpus");
     let put = |kind: &str, name: &str, bytes: &[u8]| -> Done {
         let folder = corpus.join(kind);
         fs::create_dir_all(&folder)?;

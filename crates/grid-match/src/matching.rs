@@ -97,8 +97,9 @@ fn search(
     let believed = |fits: &[Fit]| {
         let scores: Vec<f64> = fits.iter().map(|fit| fit.score).collect();
         let by_scores = probabilities(&scores, beliefs, &WEIGHTS);
-        let kept = fits.iter().map(|fit| fit.evidence.uncontradicted());
-        by_scores.into_iter().zip(kept).map(|(said, kept)| said * kept).collect::<Vec<f64>>()
+        // Where the best is contradicted the others, which fit worse, are no surer.
+        let kept = fits.first().map_or(1.0, |fit| fit.evidence.uncontradicted());
+        by_scores.into_iter().map(|said| said * kept).collect::<Vec<f64>>()
     };
     let mut search = Search::new(first, second, bounds, Work::new(params.work_limit));
     let mut found = Vec::new();
@@ -142,11 +143,9 @@ fn search(
     )?;
     let mut found = modes(found, second.centre);
     found.retain(|fit| fit.score > NOT_COMPARABLE);
-    let probabilities = believed(&found);
-    let mut believed: Vec<(Fit, f64)> = found.into_iter().zip(probabilities).collect();
-    // A pose that a map contradicts may fit better and be less probable.
-    believed.sort_by(|a, b| b.1.total_cmp(&a.1));
-    believed.truncate(MOST_HYPOTHESES);
+    let mut probabilities = believed(&found);
+    probabilities.truncate(MOST_HYPOTHESES);
+    let believed: Vec<(Fit, f64)> = found.into_iter().zip(probabilities).collect();
     let hypotheses = each(
         &believed,
         || (),

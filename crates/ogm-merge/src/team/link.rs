@@ -26,8 +26,8 @@ const SHARED: f64 = 0.5;
 /// No number of pairs makes a pose surer than this: of joins that many pairs ask for, so many are
 /// right on simulated floors.
 const MOST_BY_PAIRS: f64 = 0.995;
-/// Wall in free space that contradicts a pose, metres, beside as much as fits: one pair of a group
-/// may veto what all others want. Bent maps and moved furniture reach half of it.
+/// Wall of either map in free space that contradicts a pose, metres, beside as much as lies on wall
+/// or close to it: one pair of a group may veto what all others want.
 const VETO_M: f64 = 5.0;
 
 /// The best way to join two groups.

@@ -76,6 +76,18 @@ fn a_map_that_is_not_bent_is_left_alone() {
 }
 
 #[test]
+fn a_pose_that_is_off_is_no_bend() {
+    for (shift_m, turn) in [(0.1, 0.0), (0.2, 0.0), (0.1, 0.01)] {
+        let pair = bent_pair(FloorKind::Offices, [0.0, 0.0], 741).unwrap();
+        let off = ogm_core::Se2::new(shift_m, -shift_m, turn);
+        let pose = off * pair.truth.unwrap().target_from_source;
+        let report =
+            unbend(&pair.target, &pair.source, &pose, &BendParams::default(), &()).unwrap();
+        assert!(!report.is_borne_out, "{off}: {} scores", report.score);
+    }
+}
+
+#[test]
 fn maps_with_nothing_in_common_bend_nothing() {
     let a = bent_pair(FloorKind::Offices, [0.0, 0.0], 741).unwrap();
     let b = bent_pair(FloorKind::Flat, [0.0, 0.3], 706).unwrap();

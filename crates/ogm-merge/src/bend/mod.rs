@@ -16,7 +16,7 @@ use ogm_core::{OccupancyGrid, Progress, Se2, Stage};
 use crate::MergeError;
 use crate::merge::Component;
 
-use self::held_out::{Held, half, scale};
+use self::held_out::{Held, PARTS, half_m, part};
 use self::walls::{Wall, Walls, square};
 
 pub use self::params::BendParams;
@@ -36,9 +36,9 @@ const SETTLED_CELLS: f64 = 0.1;
 ///
 /// Patches of the source follow the walls of the target; a smooth deformation without folds
 /// ([`Warp`]) is fitted to their motions, and from where it puts them they follow again, first in
-/// patches the size of a hall, then of a room. The same is done twice with one half of the walls,
-/// squares of a chessboard of 1 m; what the other half then says decides whether the bend is
-/// believed ([`BendReport::is_borne_out`]). The pose stays what it is: the deformation leads from
+/// patches the size of a hall, then of a room. The same is done three times without a third of the
+/// walls, squares of 1 m in three colours; whether that third then lies better than under any rigid
+/// motion decides whether the bend is believed ([`BendReport::is_borne_out`]). The pose stays what it is: the deformation leads from
 /// the source map to the same frame.
 ///
 /// # Errors
@@ -111,18 +111,19 @@ fn onto(
         let progress = Stage::new(progress, from, to);
         Fit { target, walls, params, cell: source.resolution }.run(&progress)
     };
-    let halves = [0, 1].map(|which| {
-        source.points.iter().filter(|wall| half(wall.at) == which).copied().collect::<Vec<_>>()
-    });
     let mut held = Held::default();
-    let scale = scale(target, &source);
-    for (which, share) in [(0, 0.0), (1, 0.3)] {
-        let (warp, _) = fit(halves[which].clone(), share, share + 0.3)?;
-        held.add(target, halves[1 - which].iter(), &warp, scale);
+    let half_m = half_m(target, &source);
+    for which in 0..PARTS {
+        let (out, kept): (Vec<Wall>, Vec<Wall>) =
+            source.points.iter().partition(|wall| part(wall.at) == which);
+        let share = |done: i64| done as f64 / (PARTS + 1) as f64;
+        let (warp, _) = fit(kept, share(which), share(which + 1))?;
+        held.add(target, out.iter(), &warp, half_m);
     }
-    let (warp, patches) = fit(source.points.clone(), 0.6, 1.0)?;
+    let (warp, patches) = fit(source.points.clone(), 0.75, 1.0)?;
     let walls: Vec<Point2<f64>> = source.points.iter().map(|wall| wall.at).collect();
-    Ok(BendReport::new(warp, patches, &held, &walls, params))
+    let cell = target.resolution.max(source.resolution);
+    Ok(BendReport::new(warp, patches, &held, (&walls, cell), params))
 }
 
 struct Fit<'a> {

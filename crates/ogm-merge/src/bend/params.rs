@@ -10,7 +10,7 @@ pub struct BendParams {
     /// over some metres more than that; see `docs/bend.md`.
     pub warp: WarpParams,
     /// Least standard scores by which walls that were held out of the fit must lie better than
-    /// under the rigid pose: 2.5, by chance less than one map in a hundred.
+    /// under a rigid motion: 2.5, by chance less than one map in a hundred.
     pub significance: f64,
     /// What counts as occupied and free.
     pub thresholds: ClassThresholds,

@@ -11,6 +11,9 @@ use crate::merge::Component;
 
 /// Losses of held-out walls that are left at most, of those before: less is not worth a bend.
 const WORTH: f64 = 0.8;
+/// How far a wall must lie at least from where a rigid motion puts it, cells of the coarser map: the
+/// fusion takes walls that are nearer to each other for one.
+const LEAST_CELLS: f64 = 1.5;
 
 /// How a map is bent against another, and whether that is believed.
 #[derive(Debug, Clone)]
@@ -45,7 +48,7 @@ impl BendReport {
         warp: Warp,
         patches: usize,
         held: &Held,
-        walls: &[Point2<f64>],
+        (walls, cell): (&[Point2<f64>], f64),
         params: &BendParams,
     ) -> Self {
         let moved = |place: &Point2<f64>| (warp.apply(*place) - place).norm();
@@ -59,8 +62,10 @@ impl BendReport {
         sigmas.sort_by(f64::total_cmp);
         let contradicted = warp.believed().iter().filter(|believed| !**believed).count();
         let (score, loss_left) = (held.score(), held.left());
+        let bends = walls.iter().map(|place| warp.displacement(*place).norm());
+        let is_worth_it = loss_left <= WORTH && bends.fold(0.0, f64::max) >= LEAST_CELLS * cell;
         Self {
-            is_borne_out: score >= params.significance && loss_left <= WORTH,
+            is_borne_out: score >= params.significance && is_worth_it,
             score,
             loss_left,
             squares: held.squares(),

@@ -48,7 +48,7 @@ pub(crate) struct MergingArgs {
     /// Standard deviation of these poses; 0,0 is exact: nothing is searched and nothing doubted
     #[arg(long, value_name = "M,DEG", default_value = "0,0")]
     pub(crate) init_pose_sigma: Sigma,
-    /// Probability that a merge must reach [default: 0.99]
+    /// Probability that a merge must reach [default: 0.999]
     #[arg(long, value_name = "P")]
     pub(crate) accept: Option<f64>,
     /// Most robots that are listened to [default: 16]

@@ -6,15 +6,16 @@ use ogm_merge::{FusionParams, RobotPrior, SessionParams};
 
 /// Probability that a join must reach. A team is decided about anew whenever maps have grown, so
 /// that the most misleading of many moments counts, and others drive by what is published; two
-/// maps on disk are decided about once.
-const ACCEPT: f64 = 0.99;
+/// maps on disk are decided about once. Of some hundred joins, one that is as sure as 0.99 is wrong
+/// for a while.
+const ACCEPT: f64 = 0.999;
 
 /// How the maps of a running team are merged.
 #[derive(Debug, Clone)]
 pub struct LiveParams {
     /// The frame of the merged map: `world`.
     pub world_frame: String,
-    /// How maps are matched and placed; a join must reach a probability of 0.99.
+    /// How maps are matched and placed; a join must reach a probability of 0.999.
     pub session: SessionParams,
     /// How they become one.
     pub fusion: FusionParams,

@@ -85,12 +85,20 @@ impl Evidence {
     /// everywhere, as it seems on very coarse cells, wall on wall says nothing.
     #[must_use]
     pub fn is_comparable(&self) -> bool {
-        let sided = self.same_side_m + self.opposite_side_m;
-        self.free_m2 >= 0.5
+        self.is_promising()
             && self.same_side_m >= 0.5
-            && self.same_side_m >= 0.4 * sided
+            && self.same_side_m >= 0.4 * self.sided_m()
             && self.same_side_m >= 0.2 * self.hit_m
-            && self.chance <= 0.6
+    }
+
+    /// Whether a pose that is off by the thickness of a wall may become comparable: two maps of the
+    /// rooms on either side of one then show it from the wrong sides.
+    pub(crate) fn is_promising(&self) -> bool {
+        self.free_m2 >= 0.5 && self.sided_m() >= 0.5 && self.chance <= 0.6
+    }
+
+    fn sided_m(&self) -> f64 {
+        self.same_side_m + self.opposite_side_m
     }
 
     /// Share of the probability that is left where the walls of one map contradict the pose: more

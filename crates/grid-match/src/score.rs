@@ -39,9 +39,15 @@ impl Evidence {
     /// Log-odds that the pose is right against that no pose is; −12 for what cannot be compared.
     #[must_use]
     pub fn score(&self) -> f64 {
-        if !self.is_comparable() {
-            return NOT_COMPARABLE;
-        }
+        if self.is_comparable() { self.weighted() } else { NOT_COMPARABLE }
+    }
+
+    /// The score of a pose that is not yet refined to the thickness of a wall.
+    pub(crate) fn rough_score(&self) -> f64 {
+        if self.is_promising() { self.weighted() } else { NOT_COMPARABLE }
+    }
+
+    fn weighted(&self) -> f64 {
         let terms = self.terms();
         let weighted = WEIGHTS.terms.iter().zip(terms).map(|(weight, term)| weight * term);
         (WEIGHTS.bias + weighted.sum::<f64>()).max(NOT_COMPARABLE)

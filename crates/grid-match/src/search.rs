@@ -154,7 +154,7 @@ impl<'a> Search<'a> {
                     refine(first, second, start_first_from_second, &scales, points);
                 let evidence =
                     evaluate_rigid(first, second, &first_from_second, reach, COARSE_POINTS);
-                done.step().map(|()| Candidate { first_from_second, score: evidence.score() })
+                done.step().map(|()| Candidate { first_from_second, score: evidence.rough_score() })
             },
         )?;
         refined.sort_by(|a, b| b.score.total_cmp(&a.score));

@@ -1,7 +1,10 @@
 //! Robots that mapped parts of random floors.
 
 use grid_match::{MatchParams, match_maps};
-use ogm_sim::{FloorPlan, LidarParams, MappingParams, PairParams, SimulatedPair, simulate_pair};
+use ogm_sim::{
+    FloorKind, FloorPlan, LidarParams, MappingParams, PairParams, Relation, SimulatedPair,
+    labelled_pair, simulate_pair,
+};
 
 use crate::world::found;
 
@@ -26,6 +29,16 @@ fn robots_of_one_floor_meet_within_a_cell() {
         let error = pair.target_from_source.between(&target_from_source);
         assert!(error.translation().norm() < CELL, "{seed}: {error:?}");
         assert!(error.theta().abs() < 0.5_f64.to_radians(), "{seed}: {error:?}");
+    }
+}
+
+#[test]
+fn rooms_on_both_sides_of_their_common_walls_meet() {
+    for (kind, seed) in [(FloorKind::Flat, 705), (FloorKind::Offices, 706)] {
+        let pair = labelled_pair(kind, Relation::Overlapping, seed).unwrap();
+        let truth = pair.truth.unwrap().target_from_source;
+        let error = truth.between(&found(&pair.target, &pair.source));
+        assert!(error.translation().norm() < 0.1, "{kind:?} {seed}: {error:?}");
     }
 }
 

@@ -57,8 +57,8 @@ impl Draw {
             pairs.push(closures[index]);
         }
         let edge = |&(target, source): &(usize, usize)| {
-            let truth = world_from_node[target].between(&world_from_node[source]);
-            let pose = self.measured(&truth, &mut rng);
+            let target_from_source = world_from_node[target].between(&world_from_node[source]);
+            let pose = self.measured(&target_from_source, &mut rng);
             Edge { target, source, hypotheses: vec![pose] }
         };
         let edges: Vec<Edge> = pairs.iter().map(edge).collect();
@@ -75,14 +75,15 @@ impl Draw {
         (file, world_from_node)
     }
 
-    fn measured(&self, truth: &Se2, rng: &mut ChaCha8Rng) -> RelativePose {
+    fn measured(&self, target_from_source: &Se2, rng: &mut ChaCha8Rng) -> RelativePose {
         let [x, y, theta] = [self.metres, self.metres, self.radians].map(|sigma| {
             // Twelve uniform numbers are as good as normal.
             sigma * (0..12).map(|_| rng.random_range(-0.5..0.5)).sum::<f64>()
         });
+        let at = target_from_source.translation();
         let (translation, rotation) = (self.metres.powi(2), self.radians.powi(2));
         RelativePose {
-            target_from_source: Se2::new(truth.x() + x, truth.y() + y, truth.theta() + theta),
+            target_from_source: Se2::new(at.x + x, at.y + y, target_from_source.theta() + theta),
             covariance: Matrix3::from_diagonal(&Vector3::new(translation, translation, rotation)),
             probability: 1.0,
         }
@@ -158,7 +159,9 @@ fn closures(shape: Shape, world_from_node: &[Se2]) -> Vec<(usize, usize)> {
 /// Pairs no further apart than a crossing along both streets, and not within three steps.
 fn side_by_side(world_from_node: &[Se2]) -> Vec<(usize, usize)> {
     #[expect(clippy::cast_possible_truncation, reason = "crossings of some hundred streets")]
-    let crossing = |pose: &Se2| (pose.x().round() as i64, pose.y().round() as i64);
+    let crossing = |world_from_node: &Se2| {
+        (world_from_node.x().round() as i64, world_from_node.y().round() as i64)
+    };
     let mut at = std::collections::BTreeMap::<(i64, i64), Vec<usize>>::new();
     for (node, pose) in world_from_node.iter().enumerate() {
         at.entry(crossing(pose)).or_default().push(node);

@@ -1,5 +1,6 @@
 //! The front door for a team: any number of maps in, one report out.
 
+mod copies;
 mod join;
 mod link;
 mod pairs;
@@ -17,6 +18,7 @@ use ogm_core::{Outcome, Progress, Refusal, Se2, Stage};
 use crate::merge::{Component, Member};
 use crate::{MergeError, RobotMap};
 
+use self::copies::copies;
 pub(crate) use self::join::join;
 pub(crate) use self::link::{Evidences, contradiction};
 pub(crate) use self::pairs::{Matched, Proposal, given, matched, prepared};
@@ -118,25 +120,6 @@ pub fn merge_team(
     let pairs = pairs.collect();
     progress.report(1.0);
     Ok(TeamReport { components, pairs, joins, copies })
-}
-
-/// Maps that hold the same cells in the same place as another: the reference, or else the first,
-/// stands for them.
-fn copies(maps: &[RobotMap<'_>], reference: usize) -> Vec<(usize, usize)> {
-    let order = || {
-        (0..maps.len())
-            .map(|map| if map == 0 { reference } else { map - usize::from(map <= reference) })
-    };
-    let mut originals: Vec<usize> = Vec::new();
-    let mut copies = Vec::new();
-    for map in order() {
-        match originals.iter().find(|&&other| maps[other].map == maps[map].map) {
-            Some(&original) => copies.push((map, original)),
-            None => originals.push(map),
-        }
-    }
-    copies.sort_unstable();
-    copies
 }
 
 /// The reference first, the others ascending, copies where their originals are.

@@ -16,8 +16,8 @@ pub struct TeamReport {
     pub pairs: Vec<TeamPair>,
     /// What joined the components, in the order in which it did.
     pub joins: Vec<Join>,
-    /// Maps that hold the same cells in the same place as an earlier one, which stands for them:
-    /// (copy, original).
+    /// Maps that know the same cells in the same place as an earlier one, which stands for them,
+    /// whatever unknown there is around: (copy, original).
     pub copies: Vec<(usize, usize)>,
 }
 

@@ -22,14 +22,14 @@ const HALF_M: f64 = 0.1;
 const ROUNDING: f64 = 0.25;
 const FEWEST_SQUARES: usize = 6;
 
-/// Parts of the walls that are held out in turn.
-pub(super) const PARTS: i64 = 3;
+/// Parts of the walls that are held out in turn: two, for what a part says is judged by a fit that
+/// had none of it, and the fits have nothing in common.
+pub(super) const PARTS: i64 = 2;
 
-/// Which part of the walls a wall belongs to: squares in three colours, of which no two that share a
-/// side have the same.
+/// Which part of the walls a wall belongs to: squares of a chessboard.
 pub(super) fn part(at: Point2<f64>) -> i64 {
     let [column, row] = square(at.coords, SQUARE_M);
-    (column - row).rem_euclid(PARTS)
+    (column + row).rem_euclid(PARTS)
 }
 
 /// How badly the walls of a square lie: as they are, under the rigid part of a fit, under the fit.

@@ -36,9 +36,9 @@ const SETTLED_CELLS: f64 = 0.1;
 ///
 /// Patches of the source follow the walls of the target; a smooth deformation without folds
 /// ([`Warp`]) is fitted to their motions, and from where it puts them they follow again, first in
-/// patches the size of a hall, then of a room. The same is done three times without a third of the
-/// walls, squares of 1 m in three colours; whether that third then lies better than under any rigid
-/// motion decides whether the bend is believed ([`BendReport::is_borne_out`]). The pose stays what it is: the deformation leads from
+/// patches the size of a hall, then of a room. The same is done twice with half of the walls, squares
+/// of a chessboard of 1 m; whether the other half then lies better than under any rigid motion
+/// decides whether the bend is believed ([`BendReport::is_borne_out`]). The pose stays what it is: the deformation leads from
 /// the source map to the same frame.
 ///
 /// # Errors
@@ -120,7 +120,7 @@ fn onto(
         let (warp, _) = fit(kept, share(which), share(which + 1))?;
         held.add(target, out.iter(), &warp, half_m);
     }
-    let (warp, patches) = fit(source.points.clone(), 0.75, 1.0)?;
+    let (warp, patches) = fit(source.points.clone(), 0.66, 1.0)?;
     let walls: Vec<Point2<f64>> = source.points.iter().map(|wall| wall.at).collect();
     let cell = target.resolution.max(source.resolution);
     Ok(BendReport::new(warp, patches, &held, (&walls, cell), params))

@@ -113,8 +113,9 @@ fn other_records_of_a_bag_may_be_too_short() {
     let file = folder.path().join("plain.mcap");
     let mut bytes = plain_bag();
     let behind_magic = 8;
-    for length in 0..40 {
-        let record = [&[ATTACHMENT][..], &u64::to_le_bytes(length), &vec![0; length as usize]];
+    for length in 0..40_u8 {
+        let head = u64::from(length).to_le_bytes();
+        let record = [&[ATTACHMENT][..], &head, &vec![0; usize::from(length)]];
         bytes.splice(behind_magic..behind_magic, record.concat());
     }
     fs::write(&file, &bytes).unwrap();

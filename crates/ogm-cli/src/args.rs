@@ -95,7 +95,7 @@ pub(crate) struct MergeArgs {
     pub(crate) fusion: Fusion,
     /// Whether maps that drift bent are made straight before they are fused: auto where walls that
     /// were held out say so, report only says how far they are bent. Poses stay what they are
-    /// [default: auto; off with --transform]
+    /// [default: auto; off with --transform, and for maps of over 16 777 216 cells]
     #[arg(long, value_name = "WHEN", value_enum)]
     pub(crate) bend: Option<BendArg>,
     /// Draws the straightened maps on each other, and how far each place was moved, enlarged

@@ -1,66 +1,73 @@
 //! How far maps were bent, and what is fused in their place.
 
 use std::fmt::Write;
+use std::path::Path;
 
-use ogm_core::{OccupancyGrid, Progress};
-use ogm_merge::{BendParams, BendReport, BentComponent, Component, unbend_component};
+use ogm_core::Progress;
+use ogm_merge::{
+    BendParams, BendReport, BentComponent, BentMap, Component, MOST_BENT_CELLS, unbend_component,
+};
 use serde::Serialize;
 
 use crate::args::{BendArg, MergeArgs};
+use crate::drawn;
 use crate::input::Input;
 
-/// What is fused of a component, and what is said about it.
+/// Whether maps of these numbers of cells are made straight.
+pub(crate) fn when(args: &MergeArgs, cells: &[u64]) -> BendArg {
+    let is_small = cells.iter().all(|&cells| cells <= MOST_BENT_CELLS);
+    let default = if args.transforms.is_empty() && is_small { BendArg::Auto } else { BendArg::Off };
+    args.bend.unwrap_or(default)
+}
+
+/// What became of the bends of a component.
 #[derive(Debug)]
 pub(crate) struct Straightened {
-    bent: BentComponent,
-    /// Whether the straightened maps stand for what they were.
-    is_applied: bool,
+    /// The component as it is fused.
+    pub(crate) component: Component,
+    pub(crate) answers: Vec<BendAnswer>,
+    /// Its maps made straight on each other, where that is to be drawn.
+    pub(crate) picture: Option<Vec<u8>>,
 }
 
 impl Straightened {
-    /// Of `component`, as far as the command line asks for it.
+    /// Makes the maps of `component` straight if `when` says so: then they take the place of what
+    /// they were in `inputs`, for there may be no memory for both and the fused map. The file at
+    /// `picture` is only named.
     pub(crate) fn of(
-        maps: &[&OccupancyGrid],
+        inputs: &mut [Input],
         component: &Component,
-        args: &MergeArgs,
+        when: BendArg,
+        picture: Option<&Path>,
         progress: &dyn Progress,
     ) -> anyhow::Result<Self> {
-        let default = if args.transforms.is_empty() { BendArg::Auto } else { BendArg::Off };
-        let when = args.bend.unwrap_or(default);
         let bent = match when {
             BendArg::Off => BentComponent { component: component.clone(), maps: Vec::new() },
             BendArg::Auto | BendArg::Report => {
-                unbend_component(maps, component, &BendParams::default(), progress)?
+                let maps: Vec<_> = inputs.iter().map(Input::map).collect();
+                unbend_component(&maps, component, &BendParams::default(), progress)?
             }
         };
-        Ok(Self { bent, is_applied: when == BendArg::Auto })
-    }
-
-    /// The maps as they are fused.
-    pub(crate) fn maps<'a>(&'a self, maps: &[&'a OccupancyGrid]) -> Vec<&'a OccupancyGrid> {
-        if self.is_applied { self.bent.straight(maps) } else { maps.to_vec() }
-    }
-
-    /// The component as it is fused.
-    pub(crate) fn component<'a>(&'a self, rigid: &'a Component) -> &'a Component {
-        if self.is_applied { &self.bent.component } else { rigid }
-    }
-
-    /// The maps made straight, applied or not.
-    pub(crate) fn bent(&self) -> &BentComponent {
-        &self.bent
-    }
-
-    pub(crate) fn answers(&self) -> Vec<BendAnswer> {
-        let answer = |bent: &ogm_merge::BentMap| {
-            BendAnswer::new(bent.map, &bent.report, self.is_applied && bent.straight.is_some())
+        let picture = picture.map(|path| drawn::bend(path, inputs, &bent)).transpose()?;
+        let is_applied = when == BendArg::Auto;
+        let answer = |bent: &BentMap| {
+            BendAnswer::new(bent.map, &bent.report, is_applied && bent.straight.is_some())
         };
-        self.bent.maps.iter().map(answer).collect()
+        let answers = bent.maps.iter().map(answer).collect();
+        if !is_applied {
+            return Ok(Self { component: component.clone(), answers, picture });
+        }
+        for bent in bent.maps {
+            if let Some(straight) = bent.straight {
+                inputs[bent.map].loaded.map = straight;
+            }
+        }
+        Ok(Self { component: bent.component, answers, picture })
     }
 }
 
 /// How far a map is bent, as the JSON says it.
-#[derive(Debug, Serialize)]
+#[derive(Debug, Clone, Serialize)]
 pub(crate) struct BendAnswer {
     /// Which map, from 0.
     map: usize,
@@ -102,9 +109,15 @@ impl BendAnswer {
     }
 }
 
-/// How far maps are bent, for people; of maps that are not, only where that was `asked` for.
-pub(crate) fn said(answers: &[BendAnswer], inputs: &[Input], asked: bool) -> String {
+/// How far maps are bent, for people; of maps that are not, only where that was asked for.
+pub(crate) fn said(answers: &[BendAnswer], inputs: &[Input], args: &MergeArgs) -> String {
+    let asked = args.bend == Some(BendArg::Report);
     let mut said = String::new();
+    let is_large =
+        |input: &Input| (input.map().width() * input.map().height()) as u64 > MOST_BENT_CELLS;
+    if args.bend.is_none() && args.transforms.is_empty() && inputs.iter().any(is_large) {
+        said += "  maps of this size are not looked at for bends unasked: --bend auto does\n";
+    }
     for answer in answers {
         let name = inputs[answer.map].name();
         let BendAnswer { rms_m, max_m, x_m, y_m, score, .. } = answer;

@@ -5,7 +5,7 @@ use std::str::FromStr;
 
 use anyhow::bail;
 use ogm_io::MapSize;
-use ogm_merge::{aligning_bytes, fusing_bytes};
+use ogm_merge::{aligning_bytes, bending_bytes, fusing_bytes};
 
 /// A number of bytes as people write it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,8 +44,9 @@ pub(crate) enum Work {
     Drawing,
     /// Searching a transform.
     Aligning,
-    /// The same, and one map of them, of which a cell of the first map becomes so many.
-    Merging { refined: f64 },
+    /// The same, and one map of them, of which a cell of the first map becomes so many; before that
+    /// they may be made straight.
+    Merging { refined: f64, bends: bool },
 }
 
 /// Refuses what `work` on maps of these sizes would take beyond the limit.
@@ -81,9 +82,10 @@ fn need(maps: &[MapSize], work: Work) -> u64 {
         Work::Moving => 2 * all,
         Work::Drawing => PICTURE_BYTES,
         Work::Aligning => aligning_bytes(&each),
-        Work::Merging { refined } => {
+        Work::Merging { refined, bends } => {
             let largest = each.iter().copied().max().unwrap_or(0);
-            aligning_bytes(&each).max(fusing_bytes(largest, refined))
+            let bending = if bends { bending_bytes(&each) } else { 0 };
+            aligning_bytes(&each).max(bending).max(fusing_bytes(largest, refined))
         }
     };
     reading.unwrap_or(0).max(all.saturating_add(beyond)).saturating_add(BASE_BYTES)
@@ -185,7 +187,7 @@ mod tests {
             need(&[map(1000)], Work::Moving),
             need(&[map(1000), map(1000)], Work::Aligning),
             need(&[map(2000), map(1000)], Work::Aligning),
-            need(&[map(2000), map(1000)], Work::Merging { refined: 16.0 }),
+            need(&[map(2000), map(1000)], Work::Merging { refined: 16.0, bends: false }),
         ];
         assert!(needs.is_sorted_by(|a, b| a < b), "{needs:?}");
     }

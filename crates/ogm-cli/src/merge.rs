@@ -39,9 +39,11 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     }
     check(&args.search, &logs)?;
     let refined = args.reading.refinement(names[0], args.resolution);
-    args.reading.check_memory(&names, Work::Merging { refined })?;
+    let bend = bent::when(args, &args.reading.cells(&names));
+    let bends = bend != BendArg::Off;
+    args.reading.check_memory(&names, Work::Merging { refined, bends })?;
     let read = |name: &&Path| Input::read(name, &args.reading, quiet);
-    let inputs = names.iter().map(read).collect::<anyhow::Result<Vec<_>>>()?;
+    let mut inputs = names.iter().map(read).collect::<anyhow::Result<Vec<_>>>()?;
     check_outputs(args, &inputs, logs.iter().flatten().map(AsRef::as_ref))?;
     check_names(args)?;
 
@@ -62,13 +64,15 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
             }
         },
     };
-    let made = made(&inputs, &placing.components, args, &Stage::new(&bar, 0.7, 1.0))?;
-    let pictures = pictures(&inputs, &placing, made.as_ref(), args)?;
+    let overlay = overlay(&inputs, &placing, args)?;
+    let making = Stage::new(&bar, 0.7, 1.0);
+    let made = made(&mut inputs, &placing.components, bend, args, &making)?;
+    let pictures = pictures(&inputs, made.as_ref(), args)?;
     drop(bar);
 
     // The map lies ready before anything is in place, and is put there last.
     let staged = made.as_ref().map(|made| staged(made, args)).transpose()?;
-    for picture in pictures {
+    for picture in overlay.into_iter().chain(pictures) {
         let path = picture.path.display();
         if let Some(png) = picture.png {
             output::write(picture.path, &png, args.force)?;
@@ -88,7 +92,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
         pairs: placing.pairs,
         components: placing.components.clone(),
         team: placing.team.as_ref().map(TeamAnswer::from),
-        bend: made.as_ref().map(|made| made.straightened.answers()).unwrap_or_default(),
+        bend: made.as_ref().map(|made| made.straightened.answers.clone()).unwrap_or_default(),
     };
     let json = serde_json::to_string_pretty(&answer)? + "\n";
     if let Some(path) = &args.report {
@@ -103,7 +107,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
         || answer.pairs.iter().map(text::pair).collect(),
         |report| team::said(&inputs, report, args.overlay.is_some()),
     );
-    let bent = bent::said(&answer.bend, &inputs, args.bend == Some(BendArg::Report));
+    let bent = bent::said(&answer.bend, &inputs, args);
     let said =
         || found + &bent + &text::merge(&answer, made.as_ref().map(|made| &made.merged), args);
     let text = if args.search.json { json } else { said() };
@@ -220,8 +224,9 @@ fn check_outputs<'a>(
 
 /// The component of the first map as one map, if it holds all maps or that is not asked for.
 fn made<'a>(
-    inputs: &[Input],
+    inputs: &mut [Input],
     components: &'a [Component],
+    bend: BendArg,
     args: &MergeArgs,
     progress: &dyn Progress,
 ) -> anyhow::Result<Option<Made<'a>>> {
@@ -229,65 +234,69 @@ fn made<'a>(
     let Some(component) = components.first().filter(|_| all || args.allow_partial) else {
         return Ok(None);
     };
-    let maps: Vec<_> = inputs.iter().map(Input::map).collect();
     let (fusion, resolution) = (args.fusion.into(), args.resolution);
     let params = FusionParams { fusion, resolution, ..FusionParams::default() };
     let cannot_make = || format!("cannot make {}", args.output.display());
     let straightening = Stage::new(progress, 0.0, 0.6);
-    let straightened =
-        Straightened::of(&maps, component, args, &straightening).with_context(cannot_make)?;
-    let (straight, placed) = (straightened.maps(&maps), straightened.component(component));
-    let merged = fuse(&straight, placed, &params, &Stage::new(progress, 0.6, 1.0))
+    let picture = args.bend_picture.as_deref();
+    let straightened = Straightened::of(inputs, component, bend, picture, &straightening)
         .with_context(cannot_make)?;
+    let maps: Vec<_> = inputs.iter().map(Input::map).collect();
+    let fusing = Stage::new(progress, 0.6, 1.0);
+    let merged =
+        fuse(&maps, &straightened.component, &params, &fusing).with_context(cannot_make)?;
     Ok(Some(Made { component, straightened, params, merged }))
 }
 
-fn pictures<'a>(
+/// The maps on each other as they are.
+fn overlay<'a>(
     inputs: &[Input],
     placing: &Placing,
+    args: &'a MergeArgs,
+) -> anyhow::Result<Option<Picture<'a>>> {
+    let Some(path) = &args.overlay else { return Ok(None) };
+    if placing.team.is_some() {
+        let component = placing.components.first();
+        let png = component.map(|component| drawn::team(path, inputs, component)).transpose()?;
+        return Ok(Some(Picture { path, png, remark: None }));
+    }
+    let pair = placing.pairs.first().zip(placing.of_pairs.first());
+    let drawn = pair.map(|(pair, &[target, source])| {
+        let png = drawn::overlay(path, [&inputs[target], &inputs[source]], &pair.report)?;
+        let refused = pair.report.verdict() != Verdict::Merged;
+        let remark = match &png {
+            Some(_) => refused.then_some("shows the best transform, which was refused"),
+            None => Some("is not drawn: no transform was found"),
+        };
+        Ok(Picture { path, png, remark })
+    });
+    drawn.transpose()
+}
+
+/// The other pictures, of what was made.
+fn pictures<'a>(
+    inputs: &[Input],
     made: Option<&Made<'_>>,
     args: &'a MergeArgs,
 ) -> anyhow::Result<Vec<Picture<'a>>> {
-    const UNMADE: Option<&str> = Some("is not drawn: no map was made");
     let mut pictures = Vec::new();
-    if let Some(path) = args.overlay.as_ref().filter(|_| placing.team.is_some()) {
-        let component = placing.components.first();
-        let png = component.map(|component| drawn::team(path, inputs, component)).transpose()?;
-        pictures.push(Picture { path, png, remark: None });
-    } else if let Some(path) = &args.overlay {
-        let pair = placing.pairs.first().zip(placing.of_pairs.first());
-        let drawn = pair.map(|(pair, &[target, source])| {
-            let png = drawn::overlay(path, [&inputs[target], &inputs[source]], &pair.report)?;
-            let refused = pair.report.verdict() != Verdict::Merged;
-            let remark = match &png {
-                Some(_) => refused.then_some("shows the best transform, which was refused"),
-                None => Some("is not drawn: no transform was found"),
-            };
-            anyhow::Ok(Picture { path, png, remark })
-        });
-        pictures.extend(drawn.transpose()?);
-    }
-    if let Some(path) = &args.conflicts {
-        let png = made.map(|made| drawn::conflicts(path, &made.merged)).transpose()?;
-        let remark = if png.is_none() { UNMADE } else { None };
+    let mut draw = |path: &'a Path, png: Option<anyhow::Result<Vec<u8>>>| {
+        let remark = if png.is_none() { Some("is not drawn: no map was made") } else { None };
+        let png = png.transpose()?;
         pictures.push(Picture { path, png, remark });
+        anyhow::Ok(())
+    };
+    if let Some(path) = &args.conflicts {
+        draw(path, made.map(|made| drawn::conflicts(path, &made.merged)))?;
     }
     if let Some(path) = &args.provenance {
         let maps: Vec<_> = inputs.iter().map(Input::map).collect();
-        let png = made.map(|made| {
-            let (maps, component) =
-                (made.straightened.maps(&maps), made.straightened.component(made.component));
-            drawn::provenance(path, &maps, component, &made.params)
-        });
-        let png = png.transpose()?;
-        let remark = if png.is_none() { UNMADE } else { None };
-        pictures.push(Picture { path, png, remark });
+        let drawn = made
+            .map(|made| drawn::provenance(path, &maps, &made.straightened.component, &made.params));
+        draw(path, drawn)?;
     }
     if let Some(path) = &args.bend_picture {
-        let png =
-            made.map(|made| drawn::bend(path, inputs, made.straightened.bent())).transpose()?;
-        let remark = if png.is_none() { UNMADE } else { None };
-        pictures.push(Picture { path, png, remark });
+        draw(path, made.and_then(|made| made.straightened.picture.clone()).map(Ok))?;
     }
     Ok(pictures)
 }

@@ -49,6 +49,11 @@ impl ReadingArgs {
         memory::check(&sizes, work, self.max_memory)
     }
 
+    /// The numbers of cells of maps, where they can be read.
+    pub(crate) fn cells(&self, maps: &[&Path]) -> Vec<u64> {
+        maps.iter().filter_map(|map| Some(self.size(map).ok()?.0.cells())).collect()
+    }
+
     /// How many cells of `resolution`, if given, a cell of `map` becomes.
     pub(crate) fn refinement(&self, map: &Path, resolution: Option<f64>) -> f64 {
         match (resolution, self.size(map)) {

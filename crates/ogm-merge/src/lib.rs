@@ -74,7 +74,7 @@ pub use grid_match::{MapSignature, MatchParams, PreparedMap, Prior, View, candid
 pub use grid_merge::{ConflictRegion, FusionParams, FusionRule, Merged, PlacedMap};
 pub use known::{KnownPair, KnownPoses, known_poses};
 pub use map_warp::{Warp, WarpParams};
-pub use memory::{aligning_bytes, fusing_bytes};
+pub use memory::{MOST_BENT_CELLS, aligning_bytes, bending_bytes, fusing_bytes};
 pub use merge::{Component, Member, fuse, placed};
 pub use method::{Method, TagMethod};
 pub use ogm_core;

@@ -10,9 +10,14 @@ use tempfile::tempdir;
 
 use crate::{ends_with, fixtures, json, read};
 
-/// The example's source map, bent by up to 0.15 m along each axis in waves of 16 m.
+/// The example's source map, bent.
 fn write_bent(folder: &Path) {
-    let map = read(&fixtures().join("source.yaml"));
+    write_waved(&fixtures().join("source.yaml"), &folder.join("bent.yaml"));
+}
+
+/// The map at `straight`, bent by up to 0.15 m along each axis in waves of 16 m.
+pub(crate) fn write_waved(straight: &Path, waved: &Path) {
+    let map = read(straight);
     let mut bent = map.clone();
     for (at, _) in map.cells().indexed() {
         let place = map.frame().cell_centre(at);
@@ -20,8 +25,7 @@ fn write_bent(folder: &Path) {
         let from = place + Vector2::new(wave(place.y), wave(place.x));
         *bent.cells_mut().get_mut(at).unwrap() = map.at(from);
     }
-    let options = ogm_io::WriteOptions::default();
-    ogm_io::write_map(&folder.join("bent.yaml"), &bent, &options).unwrap();
+    ogm_io::write_map(waved, &bent, &ogm_io::WriteOptions::default()).unwrap();
 }
 
 /// Less what says when.

@@ -2,7 +2,8 @@
 
 use std::fs;
 
-use crate::{draw, ends_with, header, json};
+use crate::{apart, draw, ends_with, fixtures, header, json, pose, truth};
+use serde_json::Value;
 use tempfile::tempdir;
 
 #[test]
@@ -14,6 +15,11 @@ fn what_is_wrong_is_said_in_one_sentence_with_file_and_value() {
     for (lines, complaint) in [
         (format!("resolution: nan\n{origin}\n{rest}"), "a.yaml: `resolution: nan`"),
         (format!("resolution: 0\n{origin}\n{rest}"), "a.yaml: `resolution: 0`"),
+        (
+            format!("resolution: 1e155\n{origin}\n{rest}"),
+            "a.yaml: `resolution: 1e155`: a resolution",
+        ),
+        (format!("resolution: 1e-9\n{origin}\n{rest}"), "0.0001 to 1000 m are accepted"),
         (format!("resolution: 0.05\norigin: [nan, 0, 0]\n{rest}"), "a.yaml: `origin: [nan"),
         (format!("resolution: 0.05\norigin: [0, 0]\n{rest}"), "a.yaml: `origin: [0, 0]`"),
         (
@@ -178,6 +184,38 @@ fn an_image_in_the_place_of_its_yaml_is_told_what_to_write() {
     assert!(complained.contains("target.yaml") && complained.contains("--input "), "{complained}");
     let (_, complained) = ends_with(1, folder.path(), "info {T}/b.pgm");
     assert!(!complained.contains("b.yaml") && complained.contains("--input "), "{complained}");
+}
+
+/// Nav2 saves with a `free_thresh` that makes its own unknown free; a pixel painted white afterwards
+/// must not bring that about.
+#[test]
+fn a_map_saved_by_nav2_and_painted_into_merges_as_what_was_saved() {
+    let folder = tempdir().unwrap();
+    for map in ["target", "source"] {
+        let mut image = fs::read(fixtures().join(format!("{map}.pgm"))).unwrap();
+        let painted = image.iter().rposition(|&pixel| pixel == 205).unwrap();
+        image[painted] = 255;
+        fs::write(folder.path().join(format!("{map}.pgm")), image).unwrap();
+        let yaml = fs::read_to_string(fixtures().join(format!("{map}.yaml"))).unwrap();
+        let nav2 = yaml.replace("free_thresh: 0.196", "free_thresh: 0.25");
+        assert_ne!(nav2, yaml);
+        fs::write(folder.path().join(format!("{map}.yaml")), nav2).unwrap();
+    }
+    let info = |map: &str| json(0, folder.path(), &format!("info {map} --json"));
+    for map in ["target", "source"] {
+        let [saved, painted] = ["{F}", "{T}"].map(|place| info(&format!("{place}/{map}.yaml")));
+        let unknown = |info: &Value| info["cells"]["unknown"].as_u64().unwrap();
+        assert_eq!(unknown(&painted) + 1, unknown(&saved));
+        let warning = painted["warnings"][0].as_str().unwrap();
+        assert!(warning.contains("cells of grey 205 read as unknown"), "{warning}");
+    }
+    let merge = "merge {T}/target.yaml {T}/source.yaml -o {T}/out.yaml";
+    let (_, complained) = ends_with(0, folder.path(), merge);
+    assert_eq!(complained.matches("read as unknown although free_thresh 0.25").count(), 2);
+    let pair = &json(0, folder.path(), &format!("{merge} --force --json"))["pairs"][0];
+    assert_eq!(pair["verdict"], "merged");
+    let error = apart(pose(&pair["target_from_source"]), truth());
+    assert!(error.0 < 0.05 && error.1 < 0.5, "{error:?}");
 }
 
 /// What `field/cases` of the kind showed, on files of our own.

@@ -59,6 +59,13 @@ fn json(code: i32, folder: &Path, command: &str) -> Value {
     serde_json::from_str(&said).unwrap()
 }
 
+/// The most memory that a process had at a time so far, kibibytes, where the system tells.
+fn peak_memory(process: u32) -> Option<u64> {
+    let status = std::fs::read_to_string(format!("/proc/{process}/status")).ok()?;
+    let peak = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    peak.split_whitespace().next()?.parse().ok()
+}
+
 fn pose(json: &Value) -> Se2 {
     let number = |key: &str| json[key].as_f64().unwrap();
     Se2::new(number("x_m"), number("y_m"), number("theta_deg").to_radians())

@@ -40,43 +40,57 @@ fn what_is_too_large_is_refused_before_the_work_with_both_numbers() {
     ends_with(2, folder.path(), "info {T}/a.yaml --max-memory plenty");
 }
 
-/// Peak resident memory, kibibytes, while `ogm` aligns two maps of `side` cells a side, and what it
-/// tells before.
+/// Peak resident memory, kibibytes, while `ogm` runs with these words, and what it tells before.
 #[cfg(target_os = "linux")]
-fn taken_and_told(side: usize) -> (f64, f64) {
-    let folder = tempdir().unwrap();
-    rooms(side, &folder.path().join("a.yaml"));
-    let aligned = |most: &str| {
+fn taken_and_told(words: &[&str]) -> (f64, f64) {
+    let run = |most: &str| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_ogm"));
-        let map = folder.path().join("a.yaml");
-        command.args(["align", "--quiet", "--max-memory", most]).args([&map, &map]);
+        command.args(words).args(["--quiet", "--max-memory", most]);
         command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap()
     };
-    let refused = aligned("1").wait_with_output().unwrap();
+    let refused = run("1").wait_with_output().unwrap();
     let complaint = String::from_utf8(refused.stderr).unwrap();
     let behind = complaint.split("need about ").nth(1).unwrap();
     let mut words = behind.split_whitespace();
     let number: f64 = words.next().unwrap().parse().unwrap();
     let told = number * if words.next() == Some("GiB") { 1024.0 * 1024.0 } else { 1024.0 };
-    let mut child = aligned("100G");
-    let status = format!("/proc/{}/status", child.id());
-    let mut taken = 0.0_f64;
-    while child.try_wait().unwrap().is_none() {
-        let text = std::fs::read_to_string(&status).unwrap_or_default();
-        let peak = text.lines().find_map(|line| line.strip_prefix("VmHWM:"));
-        let peak = peak.and_then(|peak| peak.split_whitespace().next()?.parse().ok());
-        taken = taken.max(peak.unwrap_or(0.0));
+    let mut child = run("100G");
+    let mut taken = 0;
+    let status = loop {
+        taken = taken.max(crate::peak_memory(child.id()).unwrap_or(0));
+        if let Some(status) = child.try_wait().unwrap() {
+            break status;
+        }
         std::thread::sleep(std::time::Duration::from_millis(2));
-    }
-    (taken, told)
+    };
+    assert!(status.success(), "{words:?}");
+    (taken as f64, told)
 }
 
+/// Holds what is told of aligning a map of `side` cells a side, of merging it, and of merging it
+/// with one that is made straight.
 #[cfg(target_os = "linux")]
 #[track_caller]
 fn is_told(side: usize) {
-    let (taken, told) = taken_and_told(side);
-    let ratio = told / taken;
-    assert!((0.95..2.0).contains(&ratio), "{side}: told {told} KiB, taken {taken} KiB");
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).into_os_string().into_string().unwrap();
+    let [map, bent, output] = ["a.yaml", "bent.yaml", "out.yaml"].map(at);
+    rooms(side, Path::new(&map));
+    crate::bent::write_waved(Path::new(&map), Path::new(&bent));
+    let report = at("report.json");
+    let straightens = ["merge", &map, &bent, "--bend", "auto", "--report", &report, "-o", &output];
+    let commands: [&[&str]; 3] = [
+        &["align", &map, &map],
+        &["merge", &map, &map, "--bend", "off", "--force", "-o", &output],
+        &[&straightens[..], &["--force"]].concat(),
+    ];
+    for command in commands {
+        let (taken, told) = taken_and_told(command);
+        let ratio = told / taken;
+        assert!((0.95..2.0).contains(&ratio), "{command:?}: told {told} KiB, taken {taken} KiB");
+    }
+    let report = std::fs::read_to_string(report).unwrap();
+    assert!(report.contains("\"applied\": true"), "{report}");
 }
 
 #[test]
@@ -89,5 +103,19 @@ fn what_is_told_is_what_is_taken() {
 #[cfg(target_os = "linux")]
 #[ignore = "minutes and two gigabytes"]
 fn what_is_told_is_what_is_taken_by_large_maps() {
-    [1500, 3000, 4000, 6000, 8000, 20_000].into_iter().for_each(is_told);
+    [1500, 3000, 4000, 6000].into_iter().for_each(is_told);
+}
+
+/// Maps as large as any: their fused map lies beside them, and nothing is straightened unasked.
+#[test]
+#[cfg(target_os = "linux")]
+#[ignore = "minutes and two gigabytes"]
+fn two_maps_of_20_000_cells_a_side_are_merged_in_1600_megabytes() {
+    let folder = tempdir().unwrap();
+    let at = |name: &str| folder.path().join(name).into_os_string().into_string().unwrap();
+    let [map, output] = ["a.yaml", "out.yaml"].map(at);
+    rooms(20_000, Path::new(&map));
+    let (taken, told) = taken_and_told(&["merge", &map, &map, "-o", &output]);
+    assert!(taken * 1024.0 < 1.6e9, "{taken} KiB");
+    assert!(told >= 0.95 * taken, "told {told} KiB, taken {taken} KiB");
 }

@@ -4,6 +4,7 @@ use std::fs;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
+use nalgebra::{Point2, Vector2};
 use ogm_core::{ClassThresholds, OccupancyGrid, Se2};
 use tempfile::tempdir;
 
@@ -59,6 +60,41 @@ fn the_merged_map_keeps_the_first_and_adds_the_second() {
     assert!(said.contains(&command), "{said}");
     let files = fs::read_dir(folder.path()).unwrap().count();
     assert_eq!(files, 4, "map, image, report, overlay and nothing else");
+}
+
+/// Planners drive through what is unknown or free. The maps are laid two cells beside the truth, as
+/// no pose is exact.
+#[test]
+fn every_wall_of_both_maps_has_a_wall_beside_it_in_the_merged_one() {
+    let folder = tempdir().unwrap();
+    let (x, y, theta) = (truth().x() + 0.1, truth().y(), truth().theta().to_degrees());
+    let merge = format!("{MERGE} --force --json --transform {{F}}/source.yaml={x},{y},{theta}");
+    let lost = |rule: &str| {
+        let found = json(0, folder.path(), &format!("{merge} {rule}"));
+        let merged = read(&folder.path().join("out.yaml"));
+        let poses = &found["components"][0]["poses"];
+        let of_maps = ["target", "source"].into_iter().zip(poses.as_array().unwrap());
+        let lost = of_maps.map(|(map, reference_from_map)| {
+            let map = read(&fixtures().join(format!("{map}.yaml")));
+            let walls = map.occupied_points(&ClassThresholds::default());
+            let moved = walls.iter().map(|wall| pose(reference_from_map) * *wall);
+            moved.filter(|wall| !has_wall_near(&merged, *wall)).count()
+        });
+        lost.sum::<usize>()
+    };
+    assert_eq!(lost(""), 0);
+    assert!(lost("--fusion log-odds") > 100, "a rule by the cell loses walls");
+}
+
+/// Whether a wall cell of `map` is centred within 1.5 cells of `place`.
+fn has_wall_near(map: &OccupancyGrid, place: Point2<f64>) -> bool {
+    let cell = map.frame().resolution();
+    let around = (0..25).map(|at| Vector2::new(f64::from(at % 5) - 2.0, f64::from(at / 5) - 2.0));
+    around.filter_map(|offset| map.cell_at(place + offset * cell)).any(|index| {
+        let centre = map.frame().cell_centre(index);
+        let is_wall = ClassThresholds::default().is_occupied(map.at(centre));
+        is_wall && (centre - place).norm() <= 1.5 * cell
+    })
 }
 
 #[test]

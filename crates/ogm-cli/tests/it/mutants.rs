@@ -7,18 +7,25 @@ use std::process::{Command, Stdio};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
-use crate::draw;
+use crate::{draw, peak_memory};
 use tempfile::{TempDir, tempdir};
 
 /// A command that takes longer on two maps of a few cells hangs.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-const GOOD: [&str; 9] = [
+/// And one that takes more than this was talked into it, kibibytes.
+const MOST_MEMORY: u64 = 1_000_000;
+
+const GOOD: [&str; 13] = [
     "align a.yaml b.yaml --accept 0.9 --seed 3",
     "align a.yaml b.yaml --method carpin --prior 1,2,90 --prior-sigma 0.5,5 --json",
     "align a.yaml b.yaml --tags a.yaml=t.csv --tags b.yaml=t.csv --method rfid3 --quiet",
     "merge a.yaml b.yaml -o m.yaml --report r.json --overlay o.png --fusion first --force",
     "merge a.yaml a.yaml -o m.yaml --resolution 0.1 --allow-partial --repeats --force",
+    "merge a.yaml b.yaml a.yaml -o m.yaml --transform b.yaml=1,0,90 --html r.html --force",
+    "merge a.yaml b.yaml -o m.yaml --conflicts c.png --provenance o.png --bend report --force",
+    "merge folder a.yaml b.yaml -o m.yaml --reference b.yaml --alignments folder --frames w,x,y",
+    "straighten a.yaml -o n.yaml --force",
     "info a.yaml --json --max-memory 1G",
     "info p.png --input p.png=0.05,1,2,30",
     "apply a.yaml --transform 1,2,45 -o n.yaml --force",
@@ -26,7 +33,7 @@ const GOOD: [&str; 9] = [
 ];
 
 /// Values and words that stand in another's place.
-const ODD: [&str; 60] = [
+const ODD: [&str; 68] = [
     "",
     "-",
     "--",
@@ -85,6 +92,14 @@ const ODD: [&str; 60] = [
     "-o",
     "--input",
     "--max-memory",
+    "--reference",
+    "--alignments",
+    "--frames",
+    "--bend",
+    "--bend-picture",
+    "--html",
+    "--overlay",
+    "report",
     "\u{1f5fa}",
     "a.yaml=t.csv",
 ];
@@ -160,15 +175,21 @@ fn complaint(folder: &Path, words: &[String]) -> Option<String> {
         .unwrap();
     let start = Instant::now();
     let status = loop {
-        match child.try_wait().unwrap() {
+        let memory = peak_memory(child.id());
+        let excess = match child.try_wait().unwrap() {
             Some(status) => break status,
-            None if start.elapsed() > PATIENCE => {
-                child.kill().unwrap();
-                child.wait().unwrap();
-                return Some("hangs".to_owned());
+            None if memory.is_some_and(|memory| memory > MOST_MEMORY) => {
+                format!("takes {} KiB", memory.unwrap_or_default())
             }
-            None => sleep(Duration::from_millis(2)),
-        }
+            None if start.elapsed() > PATIENCE => "hangs".to_owned(),
+            None => {
+                sleep(Duration::from_millis(2));
+                continue;
+            }
+        };
+        child.kill().unwrap();
+        child.wait().unwrap();
+        return Some(excess);
     };
     let said = String::from_utf8_lossy(&fs::read(folder.join("err")).unwrap()).into_owned();
     let is_meant = matches!(status.code(), Some(0..=3)) && !said.contains("panicked");

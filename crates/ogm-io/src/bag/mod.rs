@@ -1,5 +1,6 @@
 //! ROS 2 bags: messages out of MCAP and SQLite files, and into MCAP.
 
+mod chunks;
 mod definition;
 mod error;
 mod folder;

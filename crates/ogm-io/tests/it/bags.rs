@@ -1,9 +1,11 @@
 //! Maps out of bags.
 
+use std::collections::BTreeMap;
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
+use mcap::records::MessageHeader;
 use ogm_core::{GridFrame, OccupancyGrid, Se2};
 use ogm_io::ros::{Header, OccupancyGridMessage, to_cdr};
 use ogm_io::{
@@ -68,6 +70,56 @@ fn a_topic_without_maps_is_an_error_that_names_those_with() {
     let error = read_map(&named(&text, "/map")).unwrap_err();
     assert!(matches!(error, IoError::Bag { cause: BagError::NotABag, .. }));
     assert!(read_map(&named(&folder.path().join("none.mcap"), "/map")).is_err());
+}
+
+/// A bag of one map, as `ros2 bag record` writes it unless told to compress.
+fn plain_bag() -> Vec<u8> {
+    let options = mcap::WriteOptions::new().compression(None).calculate_chunk_crcs(false);
+    let mut bag = options.create(Cursor::new(Vec::new())).unwrap();
+    let definition = OCCUPANCY_GRID_DEFINITION.as_bytes();
+    let schema = bag.add_schema(OccupancyGridMessage::TYPE, "ros2msg", definition).unwrap();
+    let channel_id = bag.add_channel(schema, "/map", "cdr", &BTreeMap::new()).unwrap();
+    let header = MessageHeader { channel_id, sequence: 0, log_time: 7, publish_time: 7 };
+    let message = OccupancyGridMessage::from_map(Header::default(), &map("#.\n?.")).unwrap();
+    bag.write_to_known_channel(&header, &to_cdr(&message).unwrap()).unwrap();
+    bag.finish().unwrap();
+    bag.into_inner().into_inner()
+}
+
+#[test]
+fn a_bit_that_fell_over_anywhere_in_a_bag_is_an_error_or_no_matter() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plain.mcap");
+    let whole = plain_bag();
+    let map = named(&file, "/map");
+    fs::write(&file, &whole).unwrap();
+    assert_eq!(read_map(&map).unwrap().map.to_ascii(), "#.\n?.\n");
+    let mut overlong = 0;
+    for at in 0..whole.len() {
+        let mut damaged = whole.clone();
+        damaged[at] ^= 0x40;
+        fs::write(&file, &damaged).unwrap();
+        if let Err(error) = read_map(&map) {
+            overlong += usize::from(error.to_string().contains("is longer than its chunk"));
+        }
+    }
+    assert!(overlong >= 8, "{overlong}");
+}
+
+#[test]
+fn other_records_of_a_bag_may_be_too_short() {
+    const ATTACHMENT: u8 = 9;
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("plain.mcap");
+    let mut bytes = plain_bag();
+    let behind_magic = 8;
+    for length in 0..40_u8 {
+        let head = u64::from(length).to_le_bytes();
+        let record = [&[ATTACHMENT][..], &head, &vec![0; usize::from(length)]];
+        bytes.splice(behind_magic..behind_magic, record.concat());
+    }
+    fs::write(&file, &bytes).unwrap();
+    assert_eq!(read_map(&named(&file, "/map")).unwrap().map.to_ascii(), "#.\n?.\n");
 }
 
 #[test]

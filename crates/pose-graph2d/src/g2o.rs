@@ -63,6 +63,7 @@ impl G2oGraph {
                 let in_source = Matrix3::new(xx, xy, xt, xy, yy, yt, xt, yt, tt);
                 let covariance = information(&in_source)
                     .ok_or_else(|| wrong("the information is not positive definite".to_owned()))?;
+                check(&in_source).map_err(wrong)?;
                 let covariance = turned(&covariance, pose.theta());
                 for id in [target, source] {
                     poses.entry(id).or_insert(None);
@@ -127,6 +128,24 @@ impl G2oGraph {
         }
         text
     }
+}
+
+/// Least and most information along any direction, in units of metres and radians, and most of one
+/// direction over that of another: of others the inverse is rounding.
+const LEAST: f64 = 1e-15;
+const MOST: f64 = 1e15;
+const MOST_RATIO: f64 = 1e12;
+
+fn check(information: &Matrix3<f64>) -> Result<(), String> {
+    let along = information.symmetric_eigenvalues();
+    let (least, most) = (along.min(), along.max());
+    let is_meant = least >= LEAST && most <= MOST && most <= MOST_RATIO * least;
+    is_meant.then_some(()).ok_or_else(|| {
+        format!(
+            "the information is from {least:e} to {most:e} by direction, not within {LEAST:e} to \
+             {MOST:e} with a ratio of at most {MOST_RATIO:e}"
+        )
+    })
 }
 
 /// A covariance of (x, y, θ) in axes turned by `theta`.

@@ -53,6 +53,8 @@ fn a_bad_line_is_named() {
         ("VERTEX_SE2 0 nan 0 0\n", 1, "nan"),
         ("VERTEX_SE2 -1 0 0 0\n", 1, "-1"),
         ("EDGE_SE2 0 1 0 0 0 0 0 0 1 0 1\n", 1, "positive definite"),
+        ("EDGE_SE2 0 1 0 0 0 1e20 0 0 1e20 0 1e20\n", 1, "within"),
+        ("EDGE_SE2 0 1 0 0 0 1e13 0 0 1 0 1\n", 1, "ratio"),
         ("VERTEX_SE3:QUAT 0 0 0 0 0 0 0 1\n", 1, "VERTEX_SE3"),
     ] {
         let error = G2oGraph::parse(text).unwrap_err();

@@ -44,6 +44,22 @@ pub(crate) fn bend(
     Bend { rms_m, stretch, patches }
 }
 
+impl Bend {
+    /// The same motions as parts of the target on the source.
+    pub(crate) fn inverse(&self, target_from_source: &Se2) -> Self {
+        let source_from_target = target_from_source.inverse();
+        let inverse = |patch: &PatchMotion| PatchMotion {
+            at: *target_from_source * patch.at + patch.shift,
+            shift: -(source_from_target * patch.shift),
+            turn: -patch.turn,
+            hit_m: patch.hit_m,
+        };
+        let patches: Vec<PatchMotion> = self.patches.iter().map(inverse).collect();
+        let stretch = stretch(&patches, source_from_target.theta());
+        Self { rms_m: self.rms_m, stretch, patches }
+    }
+}
+
 /// Slope of the shifts over the place along each axis of the source, by weighted least squares.
 fn stretch(patches: &[PatchMotion], turn: f64) -> Vector2<f64> {
     let weight: f64 = patches.iter().map(|patch| patch.hit_m).sum();

@@ -149,7 +149,10 @@ fn search(
     let hypotheses = each(
         &believed,
         || (),
-        |(), (fit, probability)| Ok(hypothesis(target, source, fit, *probability, swapped)),
+        |(), (fit, probability)| {
+            let first_from_second = hypothesis(first, second, fit, *probability);
+            Ok(if swapped { first_from_second.inverse() } else { first_from_second })
+        },
     )?;
     let (work, exhausted) = (search.work.spent(), search.work.exhausted());
     let outcome = if exhausted {
@@ -203,24 +206,20 @@ fn order(a: &PreparedMap, b: &PreparedMap) -> Ordering {
 }
 
 fn hypothesis(
-    target: &PreparedMap,
-    source: &PreparedMap,
+    first: &PreparedMap,
+    second: &PreparedMap,
     fit: &Fit,
     probability: f64,
-    swapped: bool,
 ) -> Hypothesis {
     let Fit { first_from_second, evidence, score } = *fit;
-    let target_local_from_source_local =
-        if swapped { first_from_second.inverse() } else { first_from_second };
-    let scale = target.resolution().max(source.resolution()).max(0.08);
-    let bend = bend(target, source, &target_local_from_source_local);
-    let (covariance, weak_direction) =
-        covariance(target, source, &target_local_from_source_local, scale, &bend);
+    let scale = first.resolution().max(second.resolution()).max(0.08);
+    let bend = bend(first, second, &first_from_second);
+    let (covariance, weak_direction) = covariance(first, second, &first_from_second, scale, &bend);
     Hypothesis {
         pose: RelativePose {
-            target_from_source: target.map_from_local
-                * target_local_from_source_local
-                * source.map_from_local.inverse(),
+            target_from_source: first.map_from_local
+                * first_from_second
+                * second.map_from_local.inverse(),
             covariance,
             probability,
         },

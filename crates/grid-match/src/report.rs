@@ -40,6 +40,20 @@ pub struct Hypothesis {
     pub bend: Bend,
 }
 
+impl Hypothesis {
+    /// The same way to lay the target map on the source map.
+    pub(crate) fn inverse(self) -> Self {
+        let pose = self.pose.inverse();
+        let source_from_target = pose.target_from_source;
+        let weak_direction = self.weak_direction.map(|weak| WeakDirection {
+            direction: source_from_target * weak.direction,
+            sigma_m: weak.sigma_m,
+        });
+        let bend = self.bend.inverse(&self.pose.target_from_source);
+        Self { pose, weak_direction, bend, ..self }
+    }
+}
+
 /// A direction along which the maps could slide, as in a corridor.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WeakDirection {

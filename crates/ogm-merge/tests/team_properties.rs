@@ -106,16 +106,6 @@ fn in_other_orders(check: impl Fn(&TeamReport, &TeamReport, &[OccupancyGrid], &[
 }
 
 #[test]
-fn in_any_order_the_same_maps_hang_together_in_the_same_places() {
-    // What the judge of this project calls right.
-    const RIGHT_M: f64 = 0.25;
-    in_other_orders(|wanted, report, maps, places| {
-        assert_same(wanted, report, maps, RIGHT_M, |map| places[map]);
-    });
-}
-
-#[test]
-#[ignore = "of bent maps the matcher states another covariance with target and source swapped"]
 fn the_order_of_the_maps_moves_nothing() {
     in_other_orders(|wanted, report, maps, places| {
         assert_same(wanted, report, maps, tenth_of_a_cell(maps), |map| places[map]);

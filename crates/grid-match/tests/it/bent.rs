@@ -84,6 +84,27 @@ fn a_report_says_how_far_its_parts_lie_from_its_pose() {
 }
 
 #[test]
+fn with_the_maps_swapped_a_report_says_the_same_the_other_way_round() {
+    let target = draw(OFFICE, VIEW, 0.05, Se2::new(-3.0, 1.0, 2.0));
+    let source = draw(&broken(), VIEW, 0.05, Se2::new(1.0, 2.0, 0.4));
+    let (forth, back) = (matched(&target, &source), matched(&source, &target));
+    assert_eq!(forth.hypotheses.len(), back.hypotheses.len());
+    for (forth, back) in forth.hypotheses.iter().zip(&back.hypotheses) {
+        let covariance = forth.pose.covariance;
+        assert!((covariance - back.pose.inverse().covariance).norm() < 1e-6 * covariance.norm());
+        assert_eq!(forth.bend.rms_m, back.bend.rms_m);
+        assert_eq!(forth.bend.patches.len(), back.bend.patches.len());
+        for (there, here) in forth.bend.patches.iter().zip(&back.bend.patches) {
+            let on_target = forth.pose.target_from_source * there.at + there.shift;
+            assert!((on_target - here.at).norm() < 1e-6, "{on_target} is not {}", here.at);
+            let on_source = back.pose.target_from_source * here.at + here.shift;
+            assert!((on_source - there.at).norm() < 1e-6, "{on_source} is not {}", there.at);
+            assert_eq!(there.turn, -here.turn);
+        }
+    }
+}
+
+#[test]
 fn a_map_that_is_longer_one_way_is_said_to_be() {
     let longer: Vec<Wall> =
         OFFICE.iter().map(|&[x0, y0, x1, y1]| [1.04 * x0, y0, 1.04 * x1, y1]).collect();

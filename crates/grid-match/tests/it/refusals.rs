@@ -67,16 +67,18 @@ fn a_symmetric_room_is_ambiguous_and_both_poses_are_named() {
 
 #[test]
 fn a_corridor_names_the_direction_in_which_it_slides() {
-    let heading = 0.7;
-    let target = draw(CORRIDOR, [0.0, -0.08, 12.0, 2.08], 0.1, Se2::new(0.0, 0.0, heading));
-    let source = draw(CORRIDOR, [3.0, -0.08, 15.0, 2.08], 0.1, Se2::new(5.0, 1.0, 2.0));
-    let report = matched(&target, &source);
-    assert!(!matches!(report.outcome, Outcome::Found(_)), "{:?}", report.outcome);
-    let weak = report.hypotheses[0].weak_direction.unwrap();
-    let along = weak.direction.x * (-heading).cos() + weak.direction.y * (-heading).sin();
-    assert!(along.abs() > 0.999, "{weak:?}");
-    let evidence = report.hypotheses[0].evidence;
-    assert!(evidence.relaxed.cross_m < 0.05 * evidence.hit_m, "{evidence:?}");
+    let headings = [0.7, 2.0];
+    let west = draw(CORRIDOR, [0.0, -0.08, 12.0, 2.08], 0.1, Se2::new(0.0, 0.0, headings[0]));
+    let east = draw(CORRIDOR, [3.0, -0.08, 15.0, 2.08], 0.1, Se2::new(5.0, 1.0, headings[1]));
+    for (target, source, heading) in [(&west, &east, headings[0]), (&east, &west, headings[1])] {
+        let report = matched(target, source);
+        assert!(!matches!(report.outcome, Outcome::Found(_)), "{:?}", report.outcome);
+        let weak = report.hypotheses[0].weak_direction.unwrap();
+        let along = weak.direction.x * (-heading).cos() + weak.direction.y * (-heading).sin();
+        assert!(along.abs() > 0.999, "{weak:?}");
+        let evidence = report.hypotheses[0].evidence;
+        assert!(evidence.relaxed.cross_m < 0.05 * evidence.hit_m, "{evidence:?}");
+    }
 }
 
 #[test]

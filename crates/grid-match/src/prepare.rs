@@ -132,8 +132,8 @@ fn wall_distance(state: &[State], lattice: &Lattice) -> Vec<f32> {
     match squared {
         Some(squared) => {
             let (resolution, farthest) = (lattice.resolution as f32, FARTHEST_M as f32);
-            let metres = |&cells: &u32| ((cells as f32).sqrt() * resolution).min(farthest);
-            squared.cells().iter().map(metres).collect()
+            let metres = |cells: u32| ((cells as f32).sqrt() * resolution).min(farthest);
+            squared.into_cells().into_iter().map(metres).collect()
         }
         None => vec![FARTHEST_M as f32; state.len()],
     }

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use criterion::{Criterion, criterion_group, criterion_main};
-use ogm_core::{ClassThresholds, NearestCells};
+use ogm_core::{ClassThresholds, l2_distance_sq};
 use ogm_sim::{FloorPlan, MappingParams, PairParams, survey};
 use radon_merge::{EdgeParams, detect_edges, radon, smooth_edges};
 
@@ -30,7 +30,7 @@ fn blocks(criterion: &mut Criterion) {
     });
     group.bench_function("edge smoothing", |b| b.iter(|| smooth_edges(black_box(&edges), 7)));
     group.bench_function("distance field", |b| {
-        b.iter(|| NearestCells::new(black_box(&mask)).map(|nearest| nearest.distance_sq()));
+        b.iter(|| l2_distance_sq(black_box(&mask)));
     });
     group.finish();
 }

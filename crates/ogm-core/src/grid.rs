@@ -68,6 +68,12 @@ impl<T> Grid<T> {
         &mut self.cells
     }
 
+    /// All cells, row-major from the lowest row.
+    #[must_use]
+    pub fn into_cells(self) -> Vec<T> {
+        self.cells
+    }
+
     /// The cells of one row.
     ///
     /// # Panics

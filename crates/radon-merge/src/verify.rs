@@ -2,8 +2,8 @@
 
 use nalgebra::Point2;
 use ogm_core::{
-    CellIndex, ClassThresholds, Grid, NearestCells, OccupancyGrid, Outcome, ParameterError,
-    Refusal, Se2, require,
+    CellIndex, ClassThresholds, Grid, OccupancyGrid, Outcome, ParameterError, Refusal, Se2,
+    l2_distance_sq, require,
 };
 
 use crate::{JointCounts, TranslationWindow};
@@ -189,7 +189,7 @@ pub(crate) struct WallField<'a> {
 
 impl<'a> WallField<'a> {
     pub(crate) fn new(map: &'a OccupancyGrid, thresholds: &ClassThresholds) -> Option<Self> {
-        let distance_sq = NearestCells::new(&map.occupied_mask(thresholds))?.distance_sq();
+        let distance_sq = l2_distance_sq(&map.occupied_mask(thresholds))?;
         Some(Self { map, walls: map.occupied_points(thresholds), distance_sq })
     }
 

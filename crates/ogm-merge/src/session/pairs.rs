@@ -24,6 +24,11 @@ impl Pairs {
         self.found.binary_search_by_key(&(target, source), Matched::maps)
     }
 
+    /// What a pair proposed.
+    pub(crate) fn found(&self, target: usize, source: usize) -> Option<&Matched> {
+        self.place(target, source).ok().map(|place| &self.found[place])
+    }
+
     /// When a pair was searched.
     pub(crate) fn searched(&self, target: usize, source: usize) -> Option<[Progressed; 2]> {
         self.place(target, source).ok().map(|place| self.at[place])

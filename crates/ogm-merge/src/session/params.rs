@@ -11,6 +11,7 @@ pub struct SessionParams {
     /// ([`MatchParams::accept`](crate::MatchParams::accept)). A `prior` in it is not used.
     pub align: AlignParams,
     /// A pair is searched again once this share of what either robot knew has changed since: 0.05.
+    /// One that has no place yet but a pose that is likelier than not is searched at any change.
     pub changed_share: f64,
     /// By how much another arrangement must be the better one before it replaces that which
     /// stands, in log-odds of what the walls say: 3.

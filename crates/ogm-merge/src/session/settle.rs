@@ -41,9 +41,10 @@ impl Settling<'_> {
         touched: &[usize],
         progress: &dyn Progress,
     ) -> Result<Settled, MergeError> {
-        let share = self.params.changed_share;
-        let (pairs, searched) = self.searched(progress, |robot, then| {
-            robot.at.revision > then.revision && robot.at.changed - then.changed >= share
+        let (pairs, searched) = self.searched(progress, |pair, robot, then| {
+            let changed = robot.at.changed - then.changed;
+            robot.at.revision > then.revision
+                && (changed >= self.params.changed_share || (changed > 0.0 && self.is_near(pair)))
         })?;
         let joining = Stage::new(progress, SEARCHED, 1.0);
         let apart = self.apart();
@@ -75,7 +76,7 @@ impl Settling<'_> {
 
     /// As [`settle`](Self::settle) with nothing that stands.
     pub(crate) fn reconsider(&self, progress: &dyn Progress) -> Result<Settled, MergeError> {
-        let is_new = |robot: &Robot, then: &Progressed| robot.at != *then;
+        let is_new = |_, robot: &Robot, then: &Progressed| robot.at != *then;
         let (pairs, _) = self.searched(progress, is_new)?;
         let apart = self.apart();
         let known = |map| self.known(map);
@@ -93,7 +94,7 @@ impl Settling<'_> {
     fn searched(
         &self,
         progress: &dyn Progress,
-        is_due: impl Fn(&Robot, &Progressed) -> bool,
+        is_due: impl Fn((usize, usize), &Robot, &Progressed) -> bool,
     ) -> Result<(Pairs, Vec<(usize, usize)>), MergeError> {
         let known = |map: usize| self.known(map);
         let mut due = Vec::new();
@@ -103,7 +104,9 @@ impl Settling<'_> {
                 let is_open = !both.iter().any(|robot| robot.is_separated)
                     && given(known(target), known(source)).is_none();
                 let is_due = self.pairs.searched(target, source).is_none_or(|then| {
-                    both.iter().zip(&then).any(|(robot, then)| is_due(robot, then))
+                    both.iter()
+                        .zip(&then)
+                        .any(|(robot, then)| is_due((target, source), robot, then))
                 });
                 if is_open && is_due {
                     due.push((target, source));
@@ -120,6 +123,17 @@ impl Settling<'_> {
             pairs.put(pair, at);
         }
         Ok((pairs, due))
+    }
+
+    /// Whether two maps that do not hang together had one pose that is likelier than not: little
+    /// more may decide, and a robot that has seen its part would never bring much.
+    fn is_near(&self, (target, source): (usize, usize)) -> bool {
+        let is_likely = self.pairs.found(target, source).is_some_and(|pair| {
+            pair.proposals.first().is_some_and(|best| best.pose.probability >= 0.5)
+        });
+        let hang_together =
+            |group: &Group| group.of(target).is_some() && group.of(source).is_some();
+        is_likely && !self.groups.iter().any(hang_together)
     }
 
     fn apart(&self) -> Vec<usize> {

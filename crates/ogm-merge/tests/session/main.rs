@@ -136,6 +136,29 @@ fn the_same_map_again_changes_nothing() {
     assert_eq!(session.save(), before);
 }
 
+/// A session of `ann`'s map and what `bob` has seen by a `share` of his way, in which only what lacks
+/// little is searched again.
+fn begun(share: f64, accept: f64) -> MergeSession {
+    let mut params = SessionParams { changed_share: 2.0, ..SessionParams::default() };
+    params.align.matching.accept = accept;
+    let mut session = MergeSession::new(params).unwrap();
+    session.update("ann", &team().maps[0], &()).unwrap();
+    session.update("bob", &grown(&team().maps[1], share), &()).unwrap();
+    session
+}
+
+#[test]
+fn a_pair_that_lacks_little_is_searched_again_at_any_change() {
+    let said = |share| begun(share, 1.0).robot("bob").unwrap().best_match.map_or(0.0, |it| it.1);
+    let whole = said(1.0);
+    let mut shares = (1..20).map(|twentieths| 0.05 * f64::from(twentieths));
+    let share = shares.find(|&share| (0.5..0.95 * whole).contains(&said(share))).unwrap();
+    let mut session = begun(share, 0.5 * (said(share) + whole));
+    assert_eq!(place(&session, "bob"), None);
+    session.update("bob", &team().maps[1], &()).unwrap();
+    assert!(place(&session, "bob").is_some());
+}
+
 #[test]
 fn a_call_that_was_cancelled_is_made_up_for_by_the_next() {
     struct At(f64, AtomicBool);

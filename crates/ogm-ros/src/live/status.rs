@@ -7,11 +7,12 @@ use crate::message::{DiagnosticStatus, KeyValue, Level};
 
 use super::intake::Intake;
 
-/// One robot.
+/// One robot, of which a join is asked a probability of `accept`.
 pub(super) fn of_robot(
     name: &str,
     intake: &Intake,
     state: Option<&RobotState>,
+    accept: f64,
     now: Time,
 ) -> DiagnosticStatus {
     let placement = state.and_then(|state| state.placement.as_ref());
@@ -36,7 +37,7 @@ pub(super) fn of_robot(
     } else if let Some(placement) = placement {
         (Level::Ok, format!("placed with probability {:.3}", placement.probability))
     } else {
-        (Level::Warn, why_not(state))
+        (Level::Warn, why_not(state, accept))
     };
     DiagnosticStatus {
         level: level.byte(),
@@ -72,7 +73,7 @@ pub(super) fn of_team(
     }
 }
 
-fn why_not(state: Option<&RobotState>) -> String {
+fn why_not(state: Option<&RobotState>, accept: f64) -> String {
     let Some(state) = state else {
         return "no map of it was taken up yet".to_owned();
     };
@@ -81,8 +82,8 @@ fn why_not(state: Option<&RobotState>) -> String {
     } else {
         match &state.best_match {
             Some((other, probability)) => format!(
-                "no place yet: the best match is {other} with probability {probability:.2}; it \
-                 needs walls that another robot has seen"
+                "no place yet: the best match is {other} with probability {probability:.4} of \
+                 {accept}; it needs walls that another robot has seen"
             ),
             None => "no place yet: no other map to match".to_owned(),
         }

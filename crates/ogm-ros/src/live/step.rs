@@ -170,7 +170,7 @@ impl Live {
         let team = status::of_team(placed, self.robots.len(), self.turned_away, &self.answer);
         let robots = self.robots.iter().map(|(name, intake)| {
             let state = states.iter().find(|state| state.name == *name);
-            status::of_robot(name, intake, state, now)
+            status::of_robot(name, intake, state, self.params.session.align.matching.accept, now)
         });
         let header = Header { stamp: now, frame_id: self.params.world_frame.clone() };
         DiagnosticArray { header, status: std::iter::once(team).chain(robots).collect() }

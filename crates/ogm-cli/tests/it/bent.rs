@@ -12,16 +12,16 @@ use crate::{ends_with, fixtures, json, read};
 
 /// The example's source map, bent.
 fn write_bent(folder: &Path) {
-    write_waved(&fixtures().join("source.yaml"), &folder.join("bent.yaml"));
+    write_waved(&fixtures().join("source.yaml"), &folder.join("bent.yaml"), 16.0);
 }
 
-/// The map at `straight`, bent by up to 0.15 m along each axis in waves of 16 m.
-pub(crate) fn write_waved(straight: &Path, waved: &Path) {
+/// The map at `straight`, bent by up to 0.15 m along each axis in waves of so many metres.
+pub(crate) fn write_waved(straight: &Path, waved: &Path, wave_m: f64) {
     let map = read(straight);
     let mut bent = map.clone();
     for (at, _) in map.cells().indexed() {
         let place = map.frame().cell_centre(at);
-        let wave = |along: f64| 0.15 * (along * std::f64::consts::TAU / 16.0).sin();
+        let wave = |along: f64| 0.15 * (along * std::f64::consts::TAU / wave_m).sin();
         let from = place + Vector2::new(wave(place.y), wave(place.x));
         *bent.cells_mut().get_mut(at).unwrap() = map.at(from);
     }

@@ -76,7 +76,9 @@ fn is_told(side: usize) {
     let at = |name: &str| folder.path().join(name).into_os_string().into_string().unwrap();
     let [map, bent, output] = ["a.yaml", "bent.yaml", "out.yaml"].map(at);
     rooms(side, Path::new(&map));
-    crate::bent::write_waved(Path::new(&map), Path::new(&bent));
+    // The patches that follow a bend are limited in number, so that of a larger map they are larger.
+    let wave_m = (0.2 * 0.05 * side as f64).max(16.0);
+    crate::bent::write_waved(Path::new(&map), Path::new(&bent), wave_m);
     let report = at("report.json");
     let straightens = ["merge", &map, &bent, "--bend", "auto", "--report", &report, "-o", &output];
     let commands: [&[&str]; 3] = [

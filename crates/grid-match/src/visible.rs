@@ -53,50 +53,45 @@ fn depth(band: &[State], width: usize) -> Vec<u8> {
     let height = band.len() / width;
     let mut depth: Vec<u8> =
         band.iter().map(|&cell| if cell == State::Free { 0 } else { u8::MAX }).collect();
-    let lower = |depth: &mut [u8], at: usize, from: usize, step: u8| {
-        depth[at] = depth[at].min(depth[from].saturating_add(step));
-    };
     for row in 0..height {
-        for at in row * width..(row + 1) * width {
-            let column = at - row * width;
-            if depth[at] == 0 {
-                continue;
-            }
-            if column > 0 {
-                lower(&mut depth, at, at - 1, SIDE);
-            }
-            if row > 0 {
-                lower(&mut depth, at, at - width, SIDE);
-                if column > 0 {
-                    lower(&mut depth, at, at - width - 1, CORNER);
-                }
-                if column + 1 < width {
-                    lower(&mut depth, at, at - width + 1, CORNER);
-                }
-            }
+        let (before, here) = depth.split_at_mut(row * width);
+        let here = &mut here[..width];
+        if row > 0 {
+            lower_from(here, &before[(row - 1) * width..]);
         }
+        lower_along(here.iter_mut());
     }
     for row in (0..height).rev() {
-        for at in (row * width..(row + 1) * width).rev() {
-            let column = at - row * width;
-            if depth[at] == 0 {
-                continue;
-            }
-            if column + 1 < width {
-                lower(&mut depth, at, at + 1, SIDE);
-            }
-            if row + 1 < height {
-                lower(&mut depth, at, at + width, SIDE);
-                if column > 0 {
-                    lower(&mut depth, at, at + width - 1, CORNER);
-                }
-                if column + 1 < width {
-                    lower(&mut depth, at, at + width + 1, CORNER);
-                }
-            }
+        let (here, after) = depth[row * width..].split_at_mut(width);
+        if row + 1 < height {
+            lower_from(here, &after[..width]);
         }
+        lower_along(here.iter_mut().rev());
     }
     depth
+}
+
+/// Lowers a row to what leads to it from the row beside it.
+fn lower_from(row: &mut [u8], beside: &[u8]) {
+    let lower = |cell: &mut u8, from: u8, step: u8| *cell = (*cell).min(from.saturating_add(step));
+    for (cell, &from) in row.iter_mut().zip(beside) {
+        lower(cell, from, SIDE);
+    }
+    for (cell, &from) in row.iter_mut().skip(1).zip(beside) {
+        lower(cell, from, CORNER);
+    }
+    for (cell, &from) in row.iter_mut().zip(&beside[1..]) {
+        lower(cell, from, CORNER);
+    }
+}
+
+/// Lowers every cell of a row to what leads to it from the one before.
+fn lower_along<'a>(row: impl Iterator<Item = &'a mut u8>) {
+    let mut from = u8::MAX;
+    for cell in row {
+        from = from.saturating_add(SIDE).min(*cell);
+        *cell = from;
+    }
 }
 
 /// Occupied pieces of at most `side` cells either way become unknown: nothing is said about them.

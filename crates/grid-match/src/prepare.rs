@@ -78,7 +78,7 @@ impl PreparedMap {
             .map(|((distance, side), state)| Surroundings { distance, side, state })
             .collect();
         let bin = SPACING_M.max(1.5 * lattice.resolution);
-        let spectrum = hough_spectrum(&walls, bin);
+        let spectrum = hough_spectrum(&walls, spacing, bin);
         progress.report(1.0);
         Ok(Self {
             map_from_local,

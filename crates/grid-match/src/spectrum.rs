@@ -1,5 +1,6 @@
 //! Hough spectra: in which directions the walls of a map run, wherever they are.
 
+use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
 use crate::lattice::floor_index;
@@ -9,6 +10,11 @@ use crate::wall_points::WallPoint;
 pub(crate) const ANGLES: usize = 720;
 /// Most wall points of a spectrum; more change nothing.
 const MOST_POINTS: usize = 1000;
+/// Where the points left of all walls would be further apart, metres, too few lie on any one wall.
+const SPARSE_M: f64 = 2.0;
+/// Then whole blocks of this side are taken, metres, so many that they hold about these points.
+const BLOCK_M: f64 = 30.0;
+const MOST_OF_BLOCKS: usize = 10_000;
 /// Angles of the window whose minimum counts as no direction at all.
 const WINDOW: usize = 91;
 
@@ -16,9 +22,33 @@ const WINDOW: usize = 91;
 pub(crate) type Spectrum = Vec<f64>;
 
 /// h(θ) = Σ_ρ HT(θ, ρ)², less its lower envelope, its root, then normalised (after Carpin, *Fast
-/// and accurate map merging for multi-robot systems*, Autonomous Robots 25, 2008).
-pub(crate) fn hough_spectrum(walls: &[WallPoint], bin: f64) -> Spectrum {
-    let points = &walls[..walls.len().min(MOST_POINTS)];
+/// and accurate map merging for multi-robot systems*, Autonomous Robots 25, 2008); of a large map
+/// summed over blocks. A wall point stands for `spacing` metres.
+pub(crate) fn hough_spectrum(walls: &[WallPoint], spacing: f64, bin: f64) -> Spectrum {
+    let sampled = &walls[..walls.len().min(MOST_POINTS)];
+    let power = if walls.len() as f64 * spacing <= SPARSE_M * sampled.len() as f64 {
+        power(sampled, bin)
+    } else {
+        let of_blocks = blocks(walls).into_iter().map(|points| power(&points, bin));
+        of_blocks.fold(vec![0.0; ANGLES], |sum, of_block| {
+            sum.into_iter().zip(of_block).map(|(a, b)| a + b).collect()
+        })
+    };
+    normalised(&above_envelope(&power))
+}
+
+/// Some blocks of a map, evenly spread.
+fn blocks(walls: &[WallPoint]) -> Vec<Vec<WallPoint>> {
+    let mut blocks: BTreeMap<[usize; 2], Vec<WallPoint>> = BTreeMap::new();
+    for &wall in walls {
+        let block = [wall.at.y, wall.at.x].map(|along| floor_index(along / BLOCK_M));
+        blocks.entry(block).or_default().push(wall);
+    }
+    blocks.into_values().step_by(walls.len().div_ceil(MOST_OF_BLOCKS)).collect()
+}
+
+/// Σ_ρ HT(θ, ρ)² for every θ.
+fn power(points: &[WallPoint], bin: f64) -> Vec<f64> {
     if points.is_empty() {
         return vec![0.0; ANGLES];
     }
@@ -32,7 +62,7 @@ pub(crate) fn hough_spectrum(walls: &[WallPoint], bin: f64) -> Spectrum {
         .collect();
     let middle = reach / bin + 1.0;
     let mut votes = vec![0.0_f64; floor_index(2.0 * middle) + 3];
-    let power: Vec<f64> = (0..ANGLES)
+    (0..ANGLES)
         .map(|index| {
             let (sin, cos) = (index as f64 * PI / ANGLES as f64).sin_cos();
             votes.fill(0.0);
@@ -45,8 +75,7 @@ pub(crate) fn hough_spectrum(walls: &[WallPoint], bin: f64) -> Spectrum {
             }
             votes.iter().map(|vote| vote * vote).sum()
         })
-        .collect();
-    normalised(&above_envelope(&power))
+        .collect()
 }
 
 /// The root of what stands above the smoothed running minimum.
@@ -87,11 +116,11 @@ pub(crate) fn circular_correlation(target: &[f64], source: &[f64]) -> Vec<f64> {
 mod tests {
     use super::{ANGLES, circular_correlation, hough_spectrum};
     use crate::rotation::by_spectrum;
-    use crate::wall_points::WallPoint;
+    use crate::wall_points::{WallPoint, scatter};
     use nalgebra::{Point2, Rotation2, Vector2};
     use ogm_core::wrap_angle;
     use proptest::prelude::{prop_assert, proptest};
-    use std::f64::consts::PI;
+    use std::f64::consts::{PI, TAU};
 
     /// Walls of lengths that no quarter turn exchanges.
     fn walls(turn: f64, shift: Vector2<f64>) -> Vec<WallPoint> {
@@ -121,8 +150,8 @@ mod tests {
         fn the_rotation_between_two_sets_of_walls_is_the_best_peak(
             turn in -PI..PI, x in -50.0_f64..50.0, y in -50.0_f64..50.0,
         ) {
-            let target = hough_spectrum(&walls(turn, Vector2::new(x, y)), 0.1);
-            let source = hough_spectrum(&walls(0.0, Vector2::zeros()), 0.1);
+            let target = hough_spectrum(&walls(turn, Vector2::new(x, y)), 0.1, 0.1);
+            let source = hough_spectrum(&walls(0.0, Vector2::zeros()), 0.1, 0.1);
             let best = by_spectrum(&target, &source, 4);
             let error = |found: f64| wrap_angle(found - turn).abs();
             prop_assert!(error(best[0]).min(error(best[1])) < 0.2_f64.to_radians(), "{best:?}");
@@ -130,10 +159,39 @@ mod tests {
     }
 
     #[test]
+    fn in_a_town_of_short_walls_their_directions_are_seen() {
+        // Eight thousand walls of 8 m, strewn over a round town, in no order.
+        let noise = |index: u64| (scatter(index) >> 11) as f64 / (1_u64 << 53) as f64;
+        let town = |turn: f64, sample: u64| -> Vec<WallPoint> {
+            let mut points: Vec<(u64, WallPoint)> = (0..8000 * 20)
+                .map(|index| {
+                    let (wall, along) = (index / 20, 0.4 * (index % 20) as f64);
+                    let [x, y, side] = [0, 1, 2].map(|part| noise(3 * wall + part));
+                    let way = if side < 0.7 { Vector2::x() } else { Vector2::y() };
+                    let street = Rotation2::new(TAU * x) * Vector2::new(500.0 * y.sqrt(), 0.0);
+                    let place = street + way * along;
+                    let at = Rotation2::new(turn) * Point2::from(place) + Vector2::repeat(800.0);
+                    (
+                        scatter(index + sample),
+                        WallPoint { at, facing: crate::sides::Facing::UNKNOWN },
+                    )
+                })
+                .collect();
+            points.sort_by_key(|(order, _)| *order);
+            points.into_iter().map(|(_, point)| point).collect()
+        };
+        let [target, source] = [(0.4, 0), (0.0, 1_000_000)]
+            .map(|(turn, sample)| hough_spectrum(&town(turn, sample), 0.4, 0.6));
+        let best = by_spectrum(&target, &source, 4);
+        let error = best.iter().map(|found| wrap_angle(found - 0.4).abs()).fold(PI, f64::min);
+        assert!(error < 0.5_f64.to_radians(), "{best:?}");
+    }
+
+    #[test]
     fn a_spectrum_correlates_fully_with_itself_and_nothing_with_nothing() {
-        let spectrum = hough_spectrum(&walls(0.3, Vector2::zeros()), 0.1);
+        let spectrum = hough_spectrum(&walls(0.3, Vector2::zeros()), 0.1, 0.1);
         assert!((circular_correlation(&spectrum, &spectrum)[0] - 1.0).abs() < 1e-9);
-        let nothing = hough_spectrum(&[], 0.1);
+        let nothing = hough_spectrum(&[], 0.1, 0.1);
         assert_eq!(circular_correlation(&nothing, &spectrum), vec![0.0; ANGLES]);
         assert!(by_spectrum(&nothing, &spectrum, 4).is_empty());
     }

@@ -125,7 +125,7 @@ impl Sum {
 }
 
 /// The finaliser of SplitMix64: a bijection, so no two indices tie.
-fn scatter(index: u64) -> u64 {
+pub(crate) fn scatter(index: u64) -> u64 {
     let mut bits = index.wrapping_add(0x9e37_79b9_7f4a_7c15);
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

@@ -97,10 +97,7 @@ pub(crate) fn sides(state: &[State], lattice: &Lattice) -> Vec<Side> {
         let side = Side::of(window.facing(state, lattice, at));
         let (column, row) = (at % lattice.width, at / lattice.width);
         for &(dx, dy, distance) in &rings {
-            let (Some(x), Some(y)) = (column.checked_add_signed(dx), row.checked_add_signed(dy))
-            else {
-                continue;
-            };
+            let (x, y) = (column.wrapping_add_signed(dx), row.wrapping_add_signed(dy));
             if x >= lattice.width || y >= lattice.height {
                 continue;
             }
@@ -128,9 +125,22 @@ fn rings(reach: usize) -> Vec<(isize, isize, u8)> {
 
 /// What lies around a cell, weighed by a Gaussian.
 struct Window {
-    /// Columns, rows, and weight; the weights sum to one.
-    weights: Vec<(isize, isize, f64)>,
+    weights: Vec<Weight>,
     sigma: f64,
+    /// Between what a wall of one cell shows that was seen from one side, and from both.
+    open_share: f64,
+}
+
+/// One cell of a window.
+struct Weight {
+    column: isize,
+    row: isize,
+    /// The weights sum to one.
+    value: f64,
+    /// Offset of the cell, times its weight.
+    pull: Vector2<f64>,
+    /// The offset times itself, times its weight.
+    spread: Matrix2<f64>,
 }
 
 impl Window {
@@ -140,14 +150,21 @@ impl Window {
         let radius = (2.5 * sigma).ceil() as isize;
         let weight =
             |dx: isize, dy: isize| (-0.5 * ((dx * dx + dy * dy) as f64) / (sigma * sigma)).exp();
-        let mut weights: Vec<_> = (-radius..=radius)
-            .flat_map(|dy| (-radius..=radius).map(move |dx| (dx, dy, weight(dx, dy))))
+        let cells = (-radius..=radius).flat_map(|dy| (-radius..=radius).map(move |dx| (dx, dy)));
+        let total: f64 = cells.clone().map(|(dx, dy)| weight(dx, dy)).sum();
+        let weights: Vec<Weight> = cells
+            .map(|(column, row)| {
+                let value = weight(column, row) / total;
+                let offset = Vector2::new(column as f64, row as f64);
+                let spread = offset * offset.transpose() * value;
+                Weight { column, row, value, pull: offset * value, spread }
+            })
             .collect();
-        let total: f64 = weights.iter().map(|(_, _, weight)| weight).sum();
-        for (_, _, weight) in &mut weights {
-            *weight /= total;
-        }
-        Self { weights, sigma }
+        let of_column = weights.iter().filter(|weight| weight.column == 0);
+        let hidden: f64 = of_column.map(|weight| weight.value).sum();
+        let one = 0.5 * (1.0 - hidden);
+        let open_share = 0.5 * (one + 1.0 - hidden);
+        Self { weights, sigma, open_share }
     }
 
     /// Into which free space the wall at a cell faces.
@@ -156,27 +173,25 @@ impl Window {
         let mut free = 0.0;
         let mut pull = Vector2::zeros();
         let mut spread = Matrix2::zeros();
-        for &(dx, dy, weight) in &self.weights {
-            let (Some(x), Some(y)) = (column.checked_add_signed(dx), row.checked_add_signed(dy))
-            else {
-                continue;
-            };
+        for weight in &self.weights {
+            let x = column.wrapping_add_signed(weight.column);
+            let y = row.wrapping_add_signed(weight.row);
+            // What would lie left of or below the map wraps to far beyond it.
             if x >= lattice.width || y >= lattice.height {
                 continue;
             }
-            let offset = Vector2::new(dx as f64, dy as f64);
             match state[y * lattice.width + x] {
                 State::Free => {
-                    free += weight;
-                    pull += offset * weight;
+                    free += weight.value;
+                    pull += weight.pull;
                 }
-                State::Wall => spread += offset * offset.transpose() * weight,
+                State::Wall => spread += weight.spread,
                 State::Unknown => {}
             }
         }
         // Half of the plane pulls by σ/√(2π).
         let slope = pull.norm() * TAU.sqrt() / self.sigma;
-        if free > self.open_share() {
+        if free > self.open_share {
             let eigen = spread.symmetric_eigen();
             let across = if eigen.eigenvalues[0] < eigen.eigenvalues[1] { 0 } else { 1 };
             let has_direction = eigen.eigenvalues.max() > 2.0 * eigen.eigenvalues.min();
@@ -190,16 +205,5 @@ impl Window {
         } else {
             Facing::UNKNOWN
         }
-    }
-
-    /// Between what a wall of one cell shows that was seen from one side, and from both.
-    fn open_share(&self) -> f64 {
-        let share = |x: isize| -> f64 {
-            let column = self.weights.iter().filter(|&&(dx, _, _)| dx == x);
-            column.map(|(_, _, weight)| weight).sum()
-        };
-        let hidden = share(0);
-        let one = 0.5 * (1.0 - hidden);
-        0.5 * (one + 1.0 - hidden)
     }
 }

@@ -14,7 +14,7 @@ const MOST_POINTS: usize = 1000;
 const SPARSE_M: f64 = 2.0;
 /// Then whole blocks of this side are taken, metres, so many that they hold about these points.
 const BLOCK_M: f64 = 30.0;
-const MOST_OF_BLOCKS: usize = 10_000;
+const MOST_OF_BLOCKS: usize = 3000;
 /// Angles of the window whose minimum counts as no direction at all.
 const WINDOW: usize = 91;
 

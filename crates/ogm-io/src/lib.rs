@@ -55,6 +55,7 @@ mod temporary;
 mod text;
 mod warning;
 mod write;
+mod yaml_file;
 
 #[cfg(feature = "bags")]
 pub use bag::{

@@ -1,30 +1,24 @@
 //! Reading a map: a YAML and the image that it names.
 
-use std::fs::File;
-use std::io::{self, ErrorKind, Read};
+use std::io::{self, ErrorKind};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use ogm_core::{GridFrame, MAX_CELLS, OccupancyGrid};
 
 use crate::bounded::read_at_most;
-use crate::format::Format;
 use crate::lock::is_locked;
+use crate::yaml_file::{HeldYaml, access, read_yaml};
 #[cfg(feature = "bags")]
 use crate::{
     BagError, BagMap, MapMode,
     bag::read_message,
     ros::{MessageError, OccupancyGridMessage, from_cdr},
 };
-use crate::{IoError, MapHeader, MapSize, MapWarning, ReadOptions, YamlError};
+use crate::{IoError, MapHeader, MapSize, MapWarning, ReadOptions};
 
-/// A map YAML has seven keys; 64 KiB of them are something else.
-const MAX_YAML_BYTES: u64 = 1 << 16;
 /// Four bytes a cell: the largest plain PGM of 8 bits.
 const MAX_IMAGE_BYTES: u64 = 4 * MAX_CELLS as u64;
-
-/// Enough to tell an image.
-const HEAD_BYTES: u64 = 16;
 
 /// How often, and how long apart, a map that is just being replaced is looked at again.
 const ATTEMPTS: usize = 400;
@@ -73,9 +67,11 @@ impl MapFiles {
         }
         let (mut before, mut absences) = (None, 0);
         for _ in 0..ATTEMPTS {
-            let read = before.as_deref().map(|text| Self::behind(yaml, text));
-            match (read, read_yaml(yaml)) {
-                (Some(read), Ok(now)) if before.as_ref() == Some(&now) => return read,
+            let read = before.as_ref().map(|held: &HeldYaml| Self::behind(yaml, &held.text));
+            match (read, HeldYaml::read(yaml)) {
+                (Some(read), Ok(now)) if before.as_ref().is_some_and(|held| held.is(&now)) => {
+                    return read;
+                }
                 (_, Ok(now)) => (before, absences) = (Some(now), 0),
                 // Our own writer takes the YAML away while it replaces the image.
                 (_, Err(IoError::Access { cause, .. }))
@@ -242,25 +238,6 @@ fn places(yaml: &Path, named: &Path) -> Vec<PathBuf> {
         }
     }
     places
-}
-
-fn read_yaml(yaml: &Path) -> Result<Vec<u8>, IoError> {
-    let too_large = match read_at_most(yaml, MAX_YAML_BYTES) {
-        Err(cause) if cause.kind() == ErrorKind::FileTooLarge => cause,
-        read => return read.map_err(|cause| access(yaml, cause)),
-    };
-    let mut head = Vec::new();
-    let file = File::open(yaml).and_then(|file| file.take(HEAD_BYTES).read_to_end(&mut head));
-    match file {
-        Ok(_) if Format::of(&head).is_some() => {
-            Err(IoError::Yaml { path: yaml.to_owned(), cause: YamlError::Image })
-        }
-        _ => Err(access(yaml, too_large)),
-    }
-}
-
-fn access(path: &Path, cause: io::Error) -> IoError {
-    IoError::Access { path: path.to_owned(), action: "read", cause }
 }
 
 /// Reads the map that the YAML file `yaml` describes.

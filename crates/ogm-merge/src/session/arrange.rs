@@ -6,8 +6,8 @@ use ogm_core::{Progress, Se2};
 use super::group::{Group, Standing};
 use crate::MergeError;
 use crate::team::{
-    Evidences, Join, KnownPose, Matched, Part, agreeing, contradiction, given, join, placed,
-    probability_between,
+    Evidences, Join, KnownPose, Matched, Part, agreeing, contradiction, given, is_apart, join,
+    placed, probability_between,
 };
 
 /// What groups are made of.
@@ -27,6 +27,8 @@ pub(crate) struct Arranging<'a> {
 /// Walls of two maps that stand in one group and contradict it.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Contradiction {
+    maps: (usize, usize),
+    first_from_second: Se2,
     pub(crate) conflict_m: f64,
     pub(crate) hit_m: f64,
 }
@@ -186,12 +188,28 @@ impl Arranging<'_> {
                     let evidence = score_pose(maps[0], maps[1], &a_from_b)?;
                     if let Some(walls) = contradiction(&evidence) {
                         let (conflict_m, hit_m) = (walls.conflict_m, walls.hit_m);
-                        return Ok(Some(Contradiction { conflict_m, hit_m }));
+                        return Ok(Some(Contradiction {
+                            maps: (a.map, b.map),
+                            first_from_second: a_from_b,
+                            conflict_m,
+                            hit_m,
+                        }));
                     }
                 }
             }
         }
         Ok(None)
+    }
+
+    /// Whether two maps lie in `groups` as their walls contradict.
+    pub(crate) fn keeps(&self, groups: &[Group], contradiction: &Contradiction) -> bool {
+        let (a, b) = contradiction.maps;
+        let centre = self.prepared[b].centre();
+        let both = groups.iter().find_map(|group| group.of(a).zip(group.of(b)));
+        both.is_some_and(|(a, b)| {
+            let a_from_b = a.group_from_map.between(&b.group_from_map);
+            !is_apart(&a_from_b, &contradiction.first_from_second, centre)
+        })
     }
 
     /// Whether a pair of `searched` that stands in one of `groups` now has another pose for its

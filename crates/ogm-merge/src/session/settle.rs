@@ -58,10 +58,11 @@ impl Settling<'_> {
             let anew = Arranging { open: &all, ..arranging }
                 .arranged(&scattered(self.groups), &joining)?;
             let lead = arranging.evidence(&anew)? - arranging.evidence(self.groups)?;
-            because = match contradiction {
+            because = match contradiction.filter(|found| !arranging.keeps(&anew, found)) {
                 Some(walls) => {
                     Some(Because::Contradicted { conflict_m: walls.conflict_m, hit_m: walls.hit_m })
                 }
+                // What contradicts one map and not the other, all together may not believe.
                 None => (lead >= self.params.lead).then_some(Because::Outweighed { lead }),
             };
             standing = because.is_some().then_some(anew);

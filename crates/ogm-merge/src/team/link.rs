@@ -16,9 +16,14 @@ const MOST_POSES: usize = 8;
 /// A pair's hypothesis with a lower score says nothing.
 const LEAST_SCORE: f64 = -8.0;
 /// By how much all walls together must prefer a pose to every other, in log-odds, before it counts
-/// how many pairs propose it: where a building repeats, they all propose the same alias, and the
-/// right pose is not far behind.
+/// how many pairs propose it, where another one fits well: where a building repeats, they all
+/// propose the same alias, and the right pose is not far behind.
 const LEAST_LEAD: f64 = 3.0;
+/// Most score of another pose that does not fit well: bent maps laid together fit worse than any
+/// two of them, so that pairs may know what all walls together do not.
+const MOST_RIVAL: f64 = 2.0;
+/// By how much another pose may then be preferred all the same, in log-odds.
+const MOST_SHORT: f64 = 2.0;
 /// Probability that the best pose of two maps of different places is given.
 const OF_STRANGERS: f64 = 0.1;
 /// Share of what another pair says that the surest does not say already.
@@ -26,8 +31,8 @@ const SHARED: f64 = 0.5;
 /// No number of pairs makes a pose surer than this: of joins that many pairs ask for, so many are
 /// right on simulated floors.
 const MOST_BY_PAIRS: f64 = 0.995;
-/// Wall of either map in free space that contradicts a pose, metres, beside as much as lies on wall
-/// or close to it: one pair of a group may veto what all others want.
+/// Wall of a map in free space of the other that contradicts a pose, metres, beside as much as lies
+/// on wall or close to it: one pair of a group may veto what all others want.
 const VETO_M: f64 = 5.0;
 
 /// The best way to join two groups.
@@ -73,19 +78,21 @@ impl Evidences<'_> {
         refined.sort_by(|a, b| b.0.total_cmp(&a.0));
         let poses = distinct(refined, centre);
         let scores: Vec<f64> = poses.iter().map(|(score, _, _)| *score).collect();
-        let probabilities = pose_probabilities(&scores, self.repeats);
-        let Some((&(score, first_from_second, _), &by_walls)) =
-            poses.first().zip(probabilities.first())
-        else {
-            return Ok(None);
-        };
-        let lead = score - scores.get(1).copied().unwrap_or(f64::NEG_INFINITY);
-        let by_pairs = if lead >= LEAST_LEAD && !self.repeats {
-            self.agreement(first, second, &first_from_second)
-        } else {
-            0.0
-        };
-        Ok(Some(Link { first_from_second, probability: by_walls.max(by_pairs), score }))
+        let by_walls = pose_probabilities(&scores, self.repeats);
+        let links = poses.iter().zip(by_walls).enumerate().map(|(index, (found, by_walls))| {
+            let &(score, first_from_second, _) = found;
+            let others = scores.iter().enumerate().filter(|(other, _)| *other != index);
+            let rival = others.map(|(_, score)| *score).fold(f64::NEG_INFINITY, f64::max);
+            let is_clear =
+                score - rival >= LEAST_LEAD || rival <= MOST_RIVAL && rival - score <= MOST_SHORT;
+            let by_pairs = if is_clear && !self.repeats {
+                self.agreement(first, second, &first_from_second)
+            } else {
+                0.0
+            };
+            Link { first_from_second, probability: by_walls.max(by_pairs), score }
+        });
+        Ok(links.reduce(|best, link| if link.probability > best.probability { link } else { best }))
     }
 
     /// Probability of a pose by how many pairs across the groups take it for their best.
@@ -101,7 +108,10 @@ impl Evidences<'_> {
             let Some(proposed) = first_from_second_by(first, second, pair, &best.pose) else {
                 continue;
             };
-            let said = log_odds(best.pose.probability);
+            let scores: Vec<f64> = pair.proposals.iter().map(|found| found.score).collect();
+            // What one of the maps was drawn without contradicts no pose of them all.
+            let by_scores = pose_probabilities(&scores, self.repeats)[0];
+            let said = log_odds(best.pose.probability.max(by_scores));
             let more = (said - log_odds(OF_STRANGERS)).max(0.0);
             odds.push(if is_apart(&proposed, first_from_second, centre) {
                 (f64::NEG_INFINITY, -more)
@@ -115,7 +125,7 @@ impl Evidences<'_> {
         probability_from_log_odds(surest + SHARED * others).min(MOST_BY_PAIRS)
     }
 
-    /// Whether some pair of maps across the groups contradicts their link.
+    /// Whether some pair of maps across the groups contradicts their link, each the other.
     pub(crate) fn is_vetoed(
         &self,
         first: &Part,
@@ -126,7 +136,7 @@ impl Evidences<'_> {
             for &(b, second_from_b) in &second.members {
                 let a_from_b = first_from_a.between(&(*first_from_second * second_from_b));
                 let evidence = score_pose(&self.prepared[a], &self.prepared[b], &a_from_b)?;
-                if contradiction(&evidence).is_some() {
+                if evidence.is_comparable() && evidence.relaxed.walls.iter().all(contradicts) {
                     return Ok(true);
                 }
             }
@@ -202,14 +212,19 @@ fn distinct(poses: Vec<(f64, Se2, f64)>, centre: Point2<f64>) -> Vec<(f64, Se2, 
 }
 
 /// Whether two poses are two answers.
-fn is_apart(a_from_second: &Se2, b_from_second: &Se2, centre: Point2<f64>) -> bool {
+pub(crate) fn is_apart(a_from_second: &Se2, b_from_second: &Se2, centre: Point2<f64>) -> bool {
     let turn = wrap_angle(a_from_second.theta() - b_from_second.theta()).abs();
     let [a, b] = [a_from_second, b_from_second].map(|pose| *pose * centre);
     turn > APART.1 || (a - b).norm() > APART.0
 }
 
-/// The walls of one map, if so many stand in free space of the other that the pose is wrong.
+/// The walls of one map, if more of them stand in free space of the other than fit, and by so much
+/// that the pose may be wrong. It may be right all the same where the other map was drawn without
+/// the furniture: then only one map says so.
 pub(crate) fn contradiction(evidence: &Evidence) -> Option<WallFit> {
-    let contradicts = |walls: &WallFit| walls.conflict_m > VETO_M + walls.hit_m + walls.near_miss_m;
     evidence.relaxed.walls.into_iter().find(contradicts).filter(|_| evidence.is_comparable())
+}
+
+fn contradicts(walls: &WallFit) -> bool {
+    walls.conflict_m > VETO_M + walls.hit_m + walls.near_miss_m
 }

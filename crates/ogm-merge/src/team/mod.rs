@@ -20,7 +20,7 @@ use crate::{MergeError, RobotMap};
 
 use self::copies::copies;
 pub(crate) use self::join::join;
-pub(crate) use self::link::{Evidences, contradiction};
+pub(crate) use self::link::{Evidences, contradiction, is_apart};
 pub(crate) use self::pairs::{Matched, Proposal, given, matched, prepared};
 pub(crate) use self::part::Part;
 pub(crate) use self::place::{Place, agreeing, placed};

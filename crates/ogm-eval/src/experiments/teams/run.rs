@@ -20,7 +20,7 @@ const ENOUGH_M: f64 = 5.0;
 const SAME_WALL_M: f64 = 0.2;
 
 pub(super) fn run(options: &Options) -> anyhow::Result<Vec<Judged>> {
-    let count = options.count(1, 30);
+    let count = options.count(1, 40);
     let first = FIRST_SEED + options.seed;
     let drawn: Vec<(FloorKind, u64)> =
         (0..count).flat_map(|index| FloorKind::ALL.map(|kind| (kind, first + index))).collect();

@@ -24,6 +24,8 @@ const LEAST_LEAD: f64 = 3.0;
 const MOST_RIVAL: f64 = 2.0;
 /// By how much another pose may then be preferred all the same, in log-odds.
 const MOST_SHORT: f64 = 2.0;
+/// Probability of the pair that is then heard, if another one agrees.
+const SURE: f64 = 0.9;
 /// Probability that the best pose of two maps of different places is given.
 const OF_STRANGERS: f64 = 0.1;
 /// Share of what another pair says that the surest does not say already.
@@ -83,46 +85,26 @@ impl Evidences<'_> {
             let &(score, first_from_second, _) = found;
             let others = scores.iter().enumerate().filter(|(other, _)| *other != index);
             let rival = others.map(|(_, score)| *score).fold(f64::NEG_INFINITY, f64::max);
-            let is_clear =
-                score - rival >= LEAST_LEAD || rival <= MOST_RIVAL && rival - score <= MOST_SHORT;
-            let by_pairs = if is_clear && !self.repeats {
-                self.agreement(first, second, &first_from_second)
-            } else {
-                0.0
-            };
+            let said = self.said(first, second, &first_from_second);
+            let is_ahead = score - rival >= LEAST_LEAD;
+            let is_open = rival <= MOST_RIVAL && rival - score <= MOST_SHORT;
+            let is_heard = is_ahead || is_open && is_witnessed(&said);
+            let by_pairs = if is_heard && !self.repeats { agreement(&said) } else { 0.0 };
             Link { first_from_second, probability: by_walls.max(by_pairs), score }
         });
         Ok(links.reduce(|best, link| if link.probability > best.probability { link } else { best }))
     }
 
-    /// Probability of a pose by how many pairs across the groups take it for their best.
-    ///
-    /// The surest of them counts in full and the others in part: they see the same walls. What
-    /// two maps of different places say at best is taken off each.
-    fn agreement(&self, first: &Part, second: &Part, first_from_second: &Se2) -> f64 {
+    /// What every pair across the groups says of its best pose.
+    fn said(&self, first: &Part, second: &Part, first_from_second: &Se2) -> Vec<Said> {
         let centre = second.centre(self.prepared);
-        let mut odds = Vec::new();
-        for pair in self.across(first, second) {
-            let best = pair.proposals.first();
-            let Some(best) = best else { continue };
-            let Some(proposed) = first_from_second_by(first, second, pair, &best.pose) else {
-                continue;
-            };
-            let scores: Vec<f64> = pair.proposals.iter().map(|found| found.score).collect();
-            // What one of the maps was drawn without contradicts no pose of them all.
-            let by_scores = pose_probabilities(&scores, self.repeats)[0];
-            let said = log_odds(best.pose.probability.max(by_scores));
-            let more = (said - log_odds(OF_STRANGERS)).max(0.0);
-            odds.push(if is_apart(&proposed, first_from_second, centre) {
-                (f64::NEG_INFINITY, -more)
-            } else {
-                (said, more)
-            });
-        }
-        let Some(surest) = odds.iter().map(|(said, _)| *said).reduce(f64::max) else { return 0.0 };
-        let surest_more = (surest - log_odds(OF_STRANGERS)).max(0.0);
-        let others = odds.iter().map(|(_, more)| more).sum::<f64>() - surest_more;
-        probability_from_log_odds(surest + SHARED * others).min(MOST_BY_PAIRS)
+        let of_pair = |pair: &Matched| {
+            let best = pair.proposals.first()?;
+            let proposed = first_from_second_by(first, second, pair, &best.pose)?;
+            let agrees = !is_apart(&proposed, first_from_second, centre);
+            Some(Said { agrees, log_odds: log_odds(best.pose.probability) })
+        };
+        self.across(first, second).filter_map(of_pair).collect()
     }
 
     /// Whether some pair of maps across the groups contradicts their link, each the other.
@@ -209,6 +191,37 @@ fn distinct(poses: Vec<(f64, Se2, f64)>, centre: Point2<f64>) -> Vec<(f64, Se2, 
         }
     }
     distinct
+}
+
+/// What a pair of maps says of a link of their groups.
+#[derive(Debug, Clone, Copy)]
+struct Said {
+    /// Whether the best pose of the pair is that of the link.
+    agrees: bool,
+    /// How likely its best pose is, by the pair alone.
+    log_odds: f64,
+}
+
+/// Probability of a pose by how many pairs across the groups take it for their best.
+///
+/// The surest of them counts in full and the others in part: they see the same walls. What two
+/// maps of different places say at best is taken off each.
+fn agreement(said: &[Said]) -> f64 {
+    let more = |said: &Said| (said.log_odds - log_odds(OF_STRANGERS)).max(0.0);
+    let agreeing = said.iter().filter(|said| said.agrees);
+    let Some(surest) = agreeing.max_by(|a, b| a.log_odds.total_cmp(&b.log_odds)) else {
+        return 0.0;
+    };
+    let all: f64 = said.iter().map(|said| if said.agrees { more(said) } else { -more(said) }).sum();
+    let others = all - more(surest);
+    probability_from_log_odds(surest.log_odds + SHARED * others).min(MOST_BY_PAIRS)
+}
+
+/// Whether a pair is sure of a link by itself and another one takes it for likelier than not.
+fn is_witnessed(said: &[Said]) -> bool {
+    let agreeing = || said.iter().filter(|said| said.agrees);
+    let is_sure = |said: &Said| said.log_odds >= log_odds(SURE);
+    agreeing().any(is_sure) && agreeing().filter(|said| said.log_odds >= 0.0).count() > 1
 }
 
 /// Whether two poses are two answers.

@@ -49,7 +49,8 @@ pub(crate) fn placed(
     reference: usize,
 ) -> Result<Vec<Place>, MergeError> {
     let index = |map: usize| members.iter().position(|(member, _)| *member == map);
-    let mut edges = Vec::new();
+    let mut edges: Vec<Edge> = Vec::new();
+    let mut pair_bends = Vec::new();
     let mut bends = vec![0.0_f64; members.len()];
     for pair in pairs {
         let Some((target, source)) = index(pair.target).zip(index(pair.source)) else { continue };
@@ -60,9 +61,15 @@ pub(crate) fn placed(
             for bend in [target, source] {
                 bends[bend] = bends[bend].max(found.bend_m);
             }
+            pair_bends.push(found.bend_m);
             let pose = RelativePose { probability: 1.0, ..found.pose };
             edges.push(Edge { target, source, hypotheses: vec![pose] });
         }
+    }
+    let has_loops = edges.len() >= members.len();
+    let bend_m = if has_loops { median(pair_bends) } else { 0.0 };
+    for hypothesis in edges.iter_mut().flat_map(|edge| &mut edge.hypotheses) {
+        hypothesis.covariance *= loosened(&hypothesis.covariance, bend_m);
     }
     let reference = index(reference).unwrap_or(0);
     let loops = edges.len() as f64 / (members.len().max(2) - 1) as f64;
@@ -90,4 +97,21 @@ pub(crate) fn placed(
         }
     };
     Ok(members.iter().enumerate().map(place).collect())
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
+
+/// By how much a covariance is to be multiplied so that its better held direction is uncertain by
+/// `bend_m` more: what two bent maps share lies elsewhere than what each shares with a third, so
+/// that a pair that seems exact says no more about the others than one that does not.
+fn loosened(covariance: &Matrix3<f64>, bend_m: f64) -> f64 {
+    let turn = covariance[(2, 2)].max(f64::MIN_POSITIVE);
+    // At the point about which the pair turns, where translation and turn have nothing in common.
+    let arm = covariance.fixed_view::<2, 1>(0, 2) / turn;
+    let there = covariance.fixed_view::<2, 2>(0, 0) - arm * arm.transpose() * turn;
+    let held = there.symmetric_eigenvalues().min();
+    if held > 0.0 { 1.0 + bend_m.powi(2) / held } else { 1.0 }
 }

@@ -3,7 +3,7 @@
 use grid_match::PreparedMap;
 use nalgebra::{Matrix3, Point2};
 use ogm_core::{RelativePose, Se2, wrap_angle};
-use pose_graph2d::{Edge, PoseGraph, SolveParams, solve};
+use pose_graph2d::{Component, Edge, PoseGraph, SolveParams, solve};
 
 use super::pairs::Matched;
 use crate::MergeError;
@@ -66,33 +66,33 @@ pub(crate) fn placed(
             edges.push(Edge { target, source, hypotheses: vec![pose] });
         }
     }
-    let has_loops = edges.len() >= members.len();
-    let bend_m = if has_loops { median(pair_bends) } else { 0.0 };
-    for hypothesis in edges.iter_mut().flat_map(|edge| &mut edge.hypotheses) {
-        hypothesis.covariance *= loosened(&hypothesis.covariance, bend_m);
-    }
     let reference = index(reference).unwrap_or(0);
     let loops = edges.len() as f64 / (members.len().max(2) - 1) as f64;
     let freedom = 3.0 * (edges.len() as f64 + 1.0 - members.len() as f64);
-    let graph = PoseGraph { nodes: members.len(), edges };
-    let params = SolveParams { references: vec![reference], ..SolveParams::default() };
-    let solution = solve(&graph, &params, &())?;
-    let reference_from_part = members[reference].1.inverse();
-    let whole = match &solution.components[..] {
-        [component] => Some(component),
-        _ => None,
+    let solved = |edges: Vec<Edge>| -> Result<Option<Component>, MergeError> {
+        let graph = PoseGraph { nodes: members.len(), edges };
+        let params = SolveParams { references: vec![reference], ..SolveParams::default() };
+        let mut components = solve(&graph, &params, &())?.components;
+        Ok(components.pop().filter(|_| components.is_empty()))
     };
+    let bend_m = median(pair_bends);
+    let mut loose = edges.clone();
+    for hypothesis in loose.iter_mut().flat_map(|edge| &mut edge.hypotheses) {
+        hypothesis.covariance *= loosened(&hypothesis.covariance, bend_m);
+    }
+    let (found, whole) = (solved(loose)?, solved(edges)?);
+    let reference_from_part = members[reference].1.inverse();
     // All pairs of a map share its drift, so that many are no more evidence than a tree of them;
     // and where they disagree by more than they say, none is as sure as it says.
-    let disagreement = whole.map_or(0.0, |component| component.cost) / freedom.max(3.0);
+    let disagreement = whole.as_ref().map_or(0.0, |whole| whole.cost) / freedom.max(3.0);
     let inflation = loops.max(1.0) * disagreement.max(1.0);
     let place = |(index, (map, part_from_map)): (usize, &(usize, Se2))| {
-        let node = whole.map(|component| component.nodes[index]);
+        let node = found.as_ref().map(|found| found.nodes[index].reference_from_node);
+        let stated = whole.as_ref().and_then(|whole| whole.nodes[index].covariance);
         Place {
             map: *map,
-            reference_from_map: node
-                .map_or(reference_from_part * *part_from_map, |node| node.reference_from_node),
-            covariance: node.and_then(|node| node.covariance).map(|found| found * inflation),
+            reference_from_map: node.unwrap_or(reference_from_part * *part_from_map),
+            covariance: stated.map(|stated| stated * inflation),
             bend_m: bends[index],
         }
     };

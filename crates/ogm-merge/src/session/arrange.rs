@@ -169,12 +169,13 @@ impl Arranging<'_> {
         Ok(score_pose(&self.prepared[a.map], &self.prepared[b.map], &a_from_b)?.score())
     }
 
-    /// The first two maps of a group, one of them in `touched`, whose walls contradict it.
-    pub(crate) fn contradiction(
+    /// Every two maps of a group, one of them in `touched`, whose walls contradict it.
+    pub(crate) fn contradictions(
         &self,
         groups: &[Group],
         touched: &[usize],
-    ) -> Result<Option<Contradiction>, MergeError> {
+    ) -> Result<Vec<Contradiction>, MergeError> {
+        let mut contradictions = Vec::new();
         for group in groups {
             for (index, a) in group.members.iter().enumerate() {
                 for b in &group.members[index + 1..] {
@@ -188,17 +189,17 @@ impl Arranging<'_> {
                     let evidence = score_pose(maps[0], maps[1], &a_from_b)?;
                     if let Some(walls) = contradiction(&evidence) {
                         let (conflict_m, hit_m) = (walls.conflict_m, walls.hit_m);
-                        return Ok(Some(Contradiction {
+                        contradictions.push(Contradiction {
                             maps: (a.map, b.map),
                             first_from_second: a_from_b,
                             conflict_m,
                             hit_m,
-                        }));
+                        });
                     }
                 }
             }
         }
-        Ok(None)
+        Ok(contradictions)
     }
 
     /// Whether two maps lie in `groups` as their walls contradict.

@@ -50,15 +50,15 @@ impl Settling<'_> {
         let apart = self.apart();
         let known = |map| self.known(map);
         let arranging = self.arranging(&pairs, &apart, &known, &searched);
-        let contradiction = arranging.contradiction(self.groups, touched)?;
+        let contradictions = arranging.contradictions(self.groups, touched)?;
         let mut standing = None;
         let mut because = None;
-        if contradiction.is_some() || arranging.is_doubted(self.groups, &searched, touched)? {
+        if !contradictions.is_empty() || arranging.is_doubted(self.groups, &searched, touched)? {
             let all = pairs.all();
             let anew = Arranging { open: &all, ..arranging }
                 .arranged(&scattered(self.groups), &joining)?;
             let lead = arranging.evidence(&anew)? - arranging.evidence(self.groups)?;
-            because = match contradiction.filter(|found| !arranging.keeps(&anew, found)) {
+            because = match contradictions.iter().find(|found| !arranging.keeps(&anew, found)) {
                 Some(walls) => {
                     Some(Because::Contradicted { conflict_m: walls.conflict_m, hit_m: walls.hit_m })
                 }

@@ -38,8 +38,9 @@ const MATCHED: f64 = 0.8;
 /// Every pair is matched by itself. Then groups of maps are joined, the surest first: what speaks
 /// for and against a join is counted once, on the maps of each group laid together, so that a map
 /// that no single other places may be placed by all of them, and one pair whose maps contradict
-/// each other in a join vetoes it. What cannot be placed stays apart. The joint poses are those of least squares over
-/// all pairs that agree. Neither the order of the maps nor copies among them change the answer.
+/// each other in a join vetoes it. What cannot be placed stays apart. The joint poses are those of
+/// least squares over all pairs that agree. Neither the order of the maps nor copies among them
+/// change the answer.
 ///
 /// # Errors
 /// Input that cannot be meant, or a call that was cancelled; maps that do not hang together are

@@ -82,7 +82,7 @@ impl Correlator {
             *value = first * value.conj();
         }
         self.along_columns[1].process_with_scratch(turned, scratch);
-        transpose(turned, work, self.rows);
+        transpose::transpose(turned, work, self.rows, self.columns);
         self.along_rows[1].process_with_scratch(work, scratch);
         Surface { columns: self.columns, rows: self.rows, scores: work }
     }
@@ -97,7 +97,7 @@ impl Correlator {
         }
         let filled = &mut work[..map.height * self.columns];
         self.along_rows[0].process_with_scratch(filled, scratch);
-        transpose(work, turned, self.columns);
+        transpose::transpose(work, turned, self.columns, self.rows);
         self.along_columns[0].process_with_scratch(turned, scratch);
     }
 }
@@ -108,17 +108,23 @@ impl Surface<'_> {
         self.scores[row * self.columns + column].re
     }
 
-    /// Local maxima above `floor`: column, row and score in coarse cells of wall.
-    pub(crate) fn maxima(&self, floor: f32) -> Vec<(usize, usize, f32)> {
+    /// The `most` highest local maxima above zero of those that are wanted, highest first: column,
+    /// row and score in coarse cells of wall.
+    pub(crate) fn maxima(
+        &self,
+        most: usize,
+        is_wanted: impl Fn(usize, usize) -> bool,
+    ) -> Vec<(usize, usize, f32)> {
         let (columns, rows) = (self.columns, self.rows);
-        let scale = 1.0 / (columns * rows) as f32;
-        let mut found = Vec::new();
+        // Below the lowest of enough that were found, nothing has to be looked at closely.
+        let mut floor = 0.0;
+        let mut found: Vec<(usize, usize, f32)> = Vec::new();
         for row in 0..rows {
             let around = |at: usize, count: usize| [(at + count - 1) % count, (at + 1) % count];
             let [below, above] = around(row, rows);
             let here = &self.scores[row * columns..][..columns];
             for (column, here) in here.iter().map(|score| score.re).enumerate() {
-                if here * scale <= floor {
+                if here <= floor {
                     continue;
                 }
                 let [left, right] = around(column, columns);
@@ -127,13 +133,24 @@ impl Surface<'_> {
                     && [left, column, right].iter().all(|&near| {
                         here > self.score(near, below) && here >= self.score(near, above)
                     });
-                if is_peak {
-                    found.push((column, row, here * scale));
+                if is_peak && is_wanted(column, row) {
+                    found.push((column, row, here));
+                    if found.len() == 4 * most {
+                        keep_highest(&mut found, most);
+                        floor = found.last().map_or(0.0, |&(.., lowest)| lowest);
+                    }
                 }
             }
         }
-        found
+        keep_highest(&mut found, most);
+        let scale = 1.0 / (columns * rows) as f32;
+        found.into_iter().map(|(column, row, score)| (column, row, score * scale)).collect()
     }
+}
+
+fn keep_highest(maxima: &mut Vec<(usize, usize, f32)>, most: usize) {
+    maxima.sort_by(|a, b| b.2.total_cmp(&a.2));
+    maxima.truncate(most);
 }
 
 /// The least length not below `least` whose only factors are 2, 3 and 5.
@@ -149,24 +166,9 @@ fn fast_length(least: usize) -> usize {
     (least.max(2)..).find(|&length| smooth(length)).unwrap_or(least)
 }
 
-/// `input` of `width` columns transposed, in blocks that stay in the cache.
-fn transpose(input: &[Complex32], output: &mut [Complex32], width: usize) {
-    const BLOCK: usize = 16;
-    let height = input.len() / width;
-    for row in (0..height).step_by(BLOCK) {
-        for column in (0..width).step_by(BLOCK) {
-            for y in row..(row + BLOCK).min(height) {
-                for x in column..(column + BLOCK).min(width) {
-                    output[x * height + y] = input[y * width + x];
-                }
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Correlator, transpose};
+    use super::Correlator;
     use crate::correlation_planes::CorrelationPlanes;
     use nalgebra::Vector2;
     use proptest::prelude::{Strategy, prop, prop_assert, proptest};
@@ -212,14 +214,5 @@ mod tests {
                 }
             }
         }
-    }
-
-    #[test]
-    fn a_transpose_puts_rows_into_columns() {
-        let numbers: Vec<Complex32> = (0..6_u8).map(|n| Complex32::from(f32::from(n))).collect();
-        let mut turned = vec![Complex32::default(); 6];
-        transpose(&numbers, &mut turned, 3);
-        let real: Vec<f32> = turned.iter().map(|number| number.re).collect();
-        assert_eq!(real, [0.0, 3.0, 1.0, 4.0, 2.0, 5.0]);
     }
 }

@@ -20,7 +20,7 @@ use crate::prepare::PreparedMap;
 use crate::refine::polish;
 use crate::report::{Hypothesis, MatchReport};
 use crate::score::NOT_COMPARABLE;
-use crate::search::{Fit, Search, evaluate_in_full};
+use crate::search::{Fit, OUT_OF_SIGHT, Search, evaluate_in_full};
 use crate::weights::WEIGHTS;
 use crate::work::Work;
 
@@ -119,10 +119,11 @@ fn search(
             break;
         }
     }
+    let best = found.first().map_or(0.0, |fit| fit.score);
+    found.retain(|fit| fit.score > best - OUT_OF_SIGHT);
     found.truncate(MOST_HYPOTHESES + 1);
     let polished = Stage::new(progress, SEARCHED, 1.0);
     let polished = Steps::new(&polished, found.len());
-    let best = found.first().map_or(0.0, |fit| fit.score);
     let contains =
         |first_from_second: &Se2| bounds.is_none_or(|bounds| bounds.contains(first_from_second));
     let found = each(
@@ -211,9 +212,9 @@ fn hypothesis(
     fit: &Fit,
     probability: f64,
 ) -> Hypothesis {
-    let Fit { first_from_second, evidence, score } = *fit;
+    let Fit { first_from_second, evidence, score, ref patches } = *fit;
     let scale = first.resolution().max(second.resolution()).max(0.08);
-    let bend = bend(first, second, &first_from_second);
+    let bend = bend(first, second, &first_from_second, patches);
     let (covariance, weak_direction) = covariance(first, second, &first_from_second, scale, &bend);
     Hypothesis {
         pose: RelativePose {

@@ -69,7 +69,13 @@ impl Sides {
     /// How far wall of another map, at `at` with `normal`, is from the walls of `map`, unless
     /// that is too far to matter at `scale`.
     #[inline]
-    fn pull(self, map: &PreparedMap, at: Point2<f64>, facing: Facing, scale: f64) -> Option<Slope> {
+    fn pull(
+        self,
+        map: &PreparedMap,
+        at: Point2<f64>,
+        facing: impl FnOnce() -> Facing,
+        scale: f64,
+    ) -> Option<Slope> {
         let (slope, there) = map.surroundings(at)?;
         if slope.value > FAR_SCALES * scale {
             return None;
@@ -77,7 +83,7 @@ impl Sides {
         if self == Self::Any {
             return Some(slope);
         }
-        let other = there.side.facing();
+        let (facing, other) = (facing(), there.side.facing());
         let is_known = |facing: Facing| facing.normal != Vector2::zeros();
         let counts = there.state == State::Free
             || !(is_known(facing) || is_known(other))
@@ -124,12 +130,8 @@ pub(crate) fn follow(
         let mut sums = Sums { scale_sq: scale * scale, ..Sums::default() };
         for &WallPoint { at, facing } in walls {
             let place = on_from_map * at;
-            if let Some(slope) = Sides::NotOpposite.pull(
-                on,
-                place,
-                facing.turned(|normal| on_from_map * normal),
-                scale,
-            ) {
+            let facing = || facing.turned(|normal| on_from_map * normal);
+            if let Some(slope) = Sides::NotOpposite.pull(on, place, facing, scale) {
                 sums.add(slope.value, slope.gradient, place - centre);
             }
         }
@@ -219,7 +221,7 @@ fn each_pull(
 ) {
     for &WallPoint { at, facing } in second.walls.iter().take(points.most) {
         let in_first = *first_from_second * at;
-        let facing = facing.turned(|normal| *first_from_second * normal);
+        let facing = || facing.turned(|normal| *first_from_second * normal);
         if let Some(slope) = points.sides.pull(first, in_first, facing, scale) {
             add(in_first, slope);
         }
@@ -227,7 +229,7 @@ fn each_pull(
     let second_from_first = first_from_second.inverse();
     for &WallPoint { at, facing } in first.walls.iter().take(points.most) {
         let in_second = second_from_first * at;
-        let facing = facing.turned(|normal| second_from_first * normal);
+        let facing = || facing.turned(|normal| second_from_first * normal);
         if let Some(slope) = points.sides.pull(second, in_second, facing, scale) {
             add(at, Slope { gradient: -(*first_from_second * slope.gradient), ..slope });
         }

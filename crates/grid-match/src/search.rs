@@ -9,6 +9,7 @@ use crate::parallel::each;
 use crate::params::Effort;
 use crate::prepare::PreparedMap;
 use crate::refine::{Points, Sides, refine};
+use crate::relax::MovedPatch;
 use crate::rotation;
 use crate::translation::{Candidate, CoarsePair, distinct};
 use crate::wall_counts::Reach;
@@ -24,15 +25,20 @@ const FINE_SCALES: [f64; 5] = [0.2, 0.14, 0.1, 0.08, 0.08];
 const FINE_POINTS: usize = 1000;
 /// Wall points of each map in the score that is reported.
 const ALL_POINTS: usize = 3000;
+/// A pose whose score is so far below that of the best is not looked at any closer, nor listed: what
+/// is still open of it moves a score by less than half of that.
+pub(crate) const OUT_OF_SIGHT: f64 = 12.0;
 /// Refined candidates closer than this are one, metres and radians.
 const SAME: (f64, f64) = (0.3, 0.04);
 
 /// A pose and all that is known about it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Fit {
     pub(crate) first_from_second: Se2,
     pub(crate) evidence: Evidence,
     pub(crate) score: f64,
+    /// The parts of the second map on the first.
+    pub(crate) patches: Vec<MovedPatch>,
 }
 
 /// What a tier tries.
@@ -158,6 +164,8 @@ impl<'a> Search<'a> {
             },
         )?;
         refined.sort_by(|a, b| b.score.total_cmp(&a.score));
+        let best = refined.first().map_or(0.0, |candidate| candidate.score);
+        refined.retain(|candidate| candidate.score > best - OUT_OF_SIGHT);
         Ok(distinct(refined, self.second.centre, SAME.0, SAME.1, most))
     }
 
@@ -213,7 +221,7 @@ impl Fit {
     /// On at most `most` wall points of each map.
     fn of(first: &PreparedMap, second: &PreparedMap, first_from_second: Se2, most: usize) -> Self {
         let reach = Reach::at(first.resolution().max(second.resolution()));
-        let evidence = evaluate(first, second, &first_from_second, reach, most);
-        Self { first_from_second, evidence, score: evidence.score() }
+        let (evidence, patches) = evaluate(first, second, &first_from_second, reach, most);
+        Self { first_from_second, evidence, score: evidence.score(), patches }
     }
 }

@@ -93,25 +93,24 @@ impl<'a> CoarsePair<'a> {
         let shift = |index: usize, first: usize, length: usize| {
             if index < first { index as f64 } else { index as f64 - length as f64 }
         };
-        let mut peaks: Vec<Candidate> = surface
-            .maxima(0.0)
-            .into_iter()
-            .map(|(column, row, score)| {
-                let cells = Vector2::new(
-                    shift(column, self.first_planes.width, surface.columns),
-                    shift(row, self.first_planes.height, surface.rows),
-                );
-                let translation = cells * self.cell + self.first_planes.origin - turned.origin;
-                let first_from_second = Se2::new(translation.x, translation.y, theta);
-                Candidate { first_from_second, score: f64::from(score) }
-            })
-            .filter(|peak| {
-                bounds.is_none_or(|bounds| bounds.near(&peak.first_from_second, self.cell))
-            })
-            .collect();
-        peaks.sort_by(|a, b| b.score.total_cmp(&a.score));
-        peaks.truncate(PEAKS);
+        let first_from_second = |column: usize, row: usize| {
+            let cells = Vector2::new(
+                shift(column, self.first_planes.width, surface.columns),
+                shift(row, self.first_planes.height, surface.rows),
+            );
+            let translation = cells * self.cell + self.first_planes.origin - turned.origin;
+            Se2::new(translation.x, translation.y, theta)
+        };
+        let is_allowed = |column: usize, row: usize| {
+            bounds.is_none_or(|bounds| bounds.near(&first_from_second(column, row), self.cell))
+        };
+        let peaks = surface.maxima(PEAKS, is_allowed).into_iter();
         peaks
+            .map(|(column, row, score)| Candidate {
+                first_from_second: first_from_second(column, row),
+                score: f64::from(score),
+            })
+            .collect()
     }
 
     /// Radius of the second map about its centre, metres.

@@ -29,6 +29,7 @@ pub(crate) struct Surface<'a> {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
     scores: &'a [Complex32],
+    score: fn(&Complex32) -> f32,
 }
 
 impl Correlator {
@@ -70,21 +71,38 @@ impl Correlator {
         Workspace { work, turned, scratch: zeros(scratch) }
     }
 
-    /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ.
+    /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ, and the same of second(−x): of the second map
+    /// turned by half, about the corner that cells (0, 0) and (−1, −1) share.
+    ///
+    /// One transform back gives both, for each is real: one goes in as what is even under a change
+    /// of sign and conjugation, the other times i.
     pub(crate) fn correlate<'a>(
         &self,
         second: &CorrelationPlanes,
         space: &'a mut Workspace,
-    ) -> Surface<'a> {
+    ) -> [Surface<'a>; 2] {
         self.transform(second, space);
         let Workspace { work, turned, scratch } = space;
-        for (value, &first) in turned.iter_mut().zip(&self.spectrum) {
-            *value = first * value.conj();
+        for column in 0..=self.columns / 2 {
+            let opposite = (self.columns - column) % self.columns;
+            let rows = if opposite == column { self.rows / 2 + 1 } else { self.rows };
+            for row in 0..rows {
+                let here = column * self.rows + row;
+                let there = opposite * self.rows + (self.rows - row) % self.rows;
+                let (first, first_there) = (self.spectrum[here], self.spectrum[there].conj());
+                let (own, own_there) = (turned[here], turned[there]);
+                let plain = (first * own.conj() + first_there * own_there) * 0.5;
+                let half = (first * own_there.conj() + first_there * own) * 0.5;
+                turned[here] = plain + Complex32::I * half;
+                turned[there] = plain.conj() + Complex32::I * half.conj();
+            }
         }
         self.along_columns[1].process_with_scratch(turned, scratch);
         transpose::transpose(turned, work, self.rows, self.columns);
         self.along_rows[1].process_with_scratch(work, scratch);
-        Surface { columns: self.columns, rows: self.rows, scores: work }
+        let scores: &[Complex32] = work;
+        let parts: [fn(&Complex32) -> f32; 2] = [|both| both.re, |both| both.im];
+        parts.map(|score| Surface { columns: self.columns, rows: self.rows, scores, score })
     }
 
     /// The transform of `map`, transposed, into what is turned in `space`.
@@ -105,7 +123,7 @@ impl Correlator {
 impl Surface<'_> {
     /// Unscaled: the inverse transform multiplies by the number of cells.
     pub(crate) fn score(&self, column: usize, row: usize) -> f32 {
-        self.scores[row * self.columns + column].re
+        (self.score)(&self.scores[row * self.columns + column])
     }
 
     /// The `most` highest local maxima above zero of those that are wanted, highest first: column,
@@ -123,7 +141,7 @@ impl Surface<'_> {
             let around = |at: usize, count: usize| [(at + count - 1) % count, (at + 1) % count];
             let [below, above] = around(row, rows);
             let here = &self.scores[row * columns..][..columns];
-            for (column, here) in here.iter().map(|score| score.re).enumerate() {
+            for (column, here) in here.iter().map(self.score).enumerate() {
                 if here <= floor {
                     continue;
                 }
@@ -197,20 +215,24 @@ mod tests {
         ) {
             let correlator = Correlator::new(&first, [second.width, second.height], [0, 0], 0);
             let mut space = correlator.workspace();
-            let surface = correlator.correlate(&second, &mut space);
+            let [surface, half] = correlator.correlate(&second, &mut space);
             let (columns, rows) = (surface.columns, surface.rows);
             let scale = 1.0 / (columns * rows) as f32;
             for row in 0..rows {
                 for column in 0..columns {
-                    let mut sum = Complex32::default();
+                    let (mut sum, mut of_half) = (Complex32::default(), Complex32::default());
                     for y in 0..second.height {
                         for x in 0..second.width {
-                            let there = at(&first, (x + column) % columns, (y + row) % rows);
-                            sum += there * at(&second, x, y).conj();
+                            let own = at(&second, x, y).conj();
+                            sum += at(&first, (x + column) % columns, (y + row) % rows) * own;
+                            let opposite = [columns - x + column, rows - y + row];
+                            of_half += at(&first, opposite[0] % columns, opposite[1] % rows) * own;
                         }
                     }
-                    let found = surface.score(column, row) * scale;
-                    prop_assert!((found - sum.re).abs() < 1e-4, "{found} instead of {}", sum.re);
+                    for (surface, sum) in [(&surface, sum), (&half, of_half)] {
+                        let found = surface.score(column, row) * scale;
+                        prop_assert!((found - sum.re).abs() < 1e-4, "{found} not {}", sum.re);
+                    }
                 }
             }
         }

@@ -28,8 +28,8 @@ use crate::work::Work;
 const MOST_HYPOTHESES: usize = 5;
 /// A pose is a rival of the best if it is at least so likely beside it, whatever its score.
 const RIVAL_SHARE: f64 = 0.2;
-/// A pose whose score is so far below the best is not polished: it is listed, no more.
-const HOPELESS: f64 = 8.0;
+/// A pose that is less likely is not polished: it is listed, no more.
+const WORTH_POLISHING: f64 = 0.05;
 /// Share of the work after which both maps are prepared.
 const PREPARED: f64 = 0.2;
 /// Share of the work after which all poses are found, but not polished.
@@ -126,13 +126,15 @@ fn search(
     let polished = Steps::new(&polished, found.len());
     let contains =
         |first_from_second: &Se2| bounds.is_none_or(|bounds| bounds.contains(first_from_second));
+    let likely = believed(&found);
+    let found: Vec<(Fit, f64)> = found.into_iter().zip(likely).collect();
     let found = each(
         &found,
         || (),
-        |(), fit| {
+        |(), (fit, probability)| {
             let start_first_from_second = fit.first_from_second;
             let mut first_from_second = start_first_from_second;
-            if fit.score > best - HOPELESS {
+            if *probability >= WORTH_POLISHING {
                 first_from_second = polish(first, second, start_first_from_second);
             }
             // What is reported is what was polished, so it is what has to be weighed and bounded.

@@ -41,23 +41,32 @@ pub(crate) fn by_spectrum(first: &Spectrum, second: &Spectrum, most: usize) -> V
     refined.flat_map(|theta| [wrap_angle(theta), wrap_angle(theta + PI)]).collect()
 }
 
+/// A rotation, and which are wanted of it and of the half turn more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct HalfTurn {
+    pub(crate) theta: f64,
+    pub(crate) wanted: [bool; 2],
+}
+
+/// The same rotations, those that half a turn parts together.
+pub(crate) fn by_half_turns(rotations: &[f64]) -> Vec<HalfTurn> {
+    let mut turns: Vec<HalfTurn> = Vec::new();
+    for &theta in rotations {
+        let opposite = |turn: &&mut HalfTurn| wrap_angle(turn.theta + PI - theta).abs() < 1e-9;
+        match turns.iter_mut().find(opposite) {
+            Some(turn) => turn.wanted[1] = true,
+            None => turns.push(HalfTurn { theta, wanted: [true, false] }),
+        }
+    }
+    turns
+}
+
 /// A whole turn in steps of 3°.
 pub(crate) fn sweep() -> Vec<f64> {
     (0..120).map(|step| wrap_angle(f64::from(step) * TAU / 120.0)).collect()
 }
 
-/// Rotations to both sides of each of `rotations`, out to `reach` by at most `step`, without these
-/// themselves.
-pub(crate) fn fan(rotations: &[f64], reach: f64, step: f64) -> Vec<f64> {
-    let steps = (reach / step).ceil().max(1.0);
-    let mut around = Vec::new();
-    for &theta in rotations {
-        let mut index = 1.0;
-        while index <= steps {
-            let offset = reach * index / steps;
-            around.extend([wrap_angle(theta - offset), wrap_angle(theta + offset)]);
-            index += 1.0;
-        }
-    }
-    around
+/// Rotations by `apart` to both sides of each of `rotations`, without these themselves.
+pub(crate) fn beside(rotations: &[f64], apart: f64) -> Vec<f64> {
+    rotations.iter().flat_map(|theta| [theta - apart, theta + apart]).map(wrap_angle).collect()
 }

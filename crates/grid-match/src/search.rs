@@ -28,6 +28,11 @@ const ALL_POINTS: usize = 3000;
 /// A pose whose score is so far below that of the best is not looked at any closer, nor listed: what
 /// is still open of it moves a score by less than half of that.
 pub(crate) const OUT_OF_SIGHT: f64 = 12.0;
+/// Rotations by the two strongest peaks of the spectra, mostly those along and across the walls.
+const STRONGEST: usize = 4;
+/// How far to both sides of these, radians: 0.9°. Half of it moves a wall at the rim of the largest
+/// lattice by less than three cells, and most walls by one.
+const BESIDE: f64 = 0.0157;
 /// Refined candidates closer than this are one, metres and radians.
 const SAME: (f64, f64) = (0.3, 0.04);
 
@@ -64,6 +69,8 @@ pub(crate) struct Search<'a> {
     coarse: CoarsePair<'a>,
     bounds: Option<Bounds>,
     suggested: Vec<f64>,
+    /// So many of these, from the first on, are worth rotations to both sides of them.
+    closely: usize,
     pub(crate) work: Work,
     pub(crate) fits: Vec<Fit>,
 }
@@ -81,10 +88,14 @@ impl<'a> Search<'a> {
             suggested.retain(|&theta| bounds.allows_rotation(theta));
             suggested.extend(bounds.rotations());
         }
+        let mut closely = suggested.len();
         if suggested.is_empty() {
             suggested = rotation::sweep();
+            closely = suggested.len();
+        } else if bounds.is_none() {
+            closely = closely.min(STRONGEST);
         }
-        Self { first, second, coarse, bounds, suggested, work, fits: Vec::new() }
+        Self { first, second, coarse, bounds, suggested, closely, work, fits: Vec::new() }
     }
 
     /// About how much a tier costs beside the others.
@@ -120,11 +131,8 @@ impl<'a> Search<'a> {
                 Tier { rotations: self.suggested.clone(), candidates: 40, survivors: 8 }
             }
             Effort::Standard => {
-                let degree = 1.0_f64.to_radians();
-                let step = 1.5 * self.coarse.cell / self.coarse.radius();
-                let step = step.clamp(0.5 * degree, 2.0 * degree);
-                let rotations = rotation::fan(&self.suggested, 0.9 * degree, step);
-                Tier { rotations, candidates: 60, survivors: 10 }
+                let rotations = rotation::beside(&self.suggested[..self.closely], BESIDE);
+                Tier { rotations, candidates: 30, survivors: 5 }
             }
             Effort::Thorough => {
                 let mut rotations = rotation::sweep();

@@ -1,5 +1,7 @@
 //! Candidate poses: every translation at each of some rotations.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Point2, Vector2};
 use ogm_core::{Cancelled, Progress, Se2, Steps, wrap_angle};
 
@@ -9,6 +11,7 @@ use crate::correlation_planes::{CorrelationPlanes, FreeShare, Side, turned_box, 
 use crate::lattice::floor_index;
 use crate::parallel::each;
 use crate::prepare::PreparedMap;
+use crate::rotation;
 use crate::work::Work;
 
 /// Peaks kept at one rotation.
@@ -32,6 +35,15 @@ pub(crate) struct CoarsePair<'a> {
     pub(crate) cell: f64,
     first_planes: CorrelationPlanes,
     second_free: FreeShare,
+}
+
+/// The second map turned, on the lattice of a correlation.
+struct Placed {
+    theta: f64,
+    /// Where the corner of its cell (0, 0) lies, turned.
+    origin: Vector2<f64>,
+    /// Shifts of fewer columns and rows are to the right and up, others to the left and down.
+    above: [usize; 2],
 }
 
 impl<'a> CoarsePair<'a> {
@@ -65,16 +77,27 @@ impl<'a> CoarsePair<'a> {
         let overlap = floor_index(LEAST_OVERLAP_M / self.cell);
         let correlator = Correlator::new(&self.first_planes, size, room, overlap);
         let allowed = rotations.iter().take_while(|_| work.spend_transform(correlator.cells()));
-        let rotations = &rotations[..allowed.count()];
-        let done = Steps::new(progress, rotations.len());
+        let turns = rotation::by_half_turns(&rotations[..allowed.count()]);
+        let done = Steps::new(progress, turns.len());
         let peaks = each(
-            rotations,
+            &turns,
             || correlator.workspace(),
-            |space, &theta| {
+            |space, turn| {
                 let (map, free) = (self.second, &self.second_free);
-                let turned = CorrelationPlanes::turned(map, free, theta, Side::Second);
-                let surface = correlator.correlate(&turned, space);
-                let peaks = self.peaks(&surface, &turned, theta, bounds);
+                let turned = CorrelationPlanes::turned(map, free, turn.theta, Side::Second);
+                let [plain, half] = correlator.correlate(&turned, space);
+                let mut peaks = Vec::new();
+                if turn.wanted[0] {
+                    let first = [self.first_planes.width, self.first_planes.height];
+                    let placed = Placed { theta: turn.theta, origin: turned.origin, above: first };
+                    peaks = self.peaks(&plain, &placed, bounds);
+                }
+                if turn.wanted[1] {
+                    let origin = -turned.origin - Vector2::repeat(self.cell);
+                    let theta = wrap_angle(turn.theta + PI);
+                    let placed = Placed { theta, origin, above: [half.columns, half.rows] };
+                    peaks.extend(self.peaks(&half, &placed, bounds));
+                }
                 done.step().map(|()| peaks)
             },
         )?;
@@ -86,20 +109,19 @@ impl<'a> CoarsePair<'a> {
     fn peaks(
         &self,
         surface: &Surface<'_>,
-        turned: &CorrelationPlanes,
-        theta: f64,
+        placed: &Placed,
         bounds: Option<&Bounds>,
     ) -> Vec<Candidate> {
-        let shift = |index: usize, first: usize, length: usize| {
-            if index < first { index as f64 } else { index as f64 - length as f64 }
+        let shift = |index: usize, above: usize, length: usize| {
+            if index < above { index as f64 } else { index as f64 - length as f64 }
         };
         let first_from_second = |column: usize, row: usize| {
             let cells = Vector2::new(
-                shift(column, self.first_planes.width, surface.columns),
-                shift(row, self.first_planes.height, surface.rows),
+                shift(column, placed.above[0], surface.columns),
+                shift(row, placed.above[1], surface.rows),
             );
-            let translation = cells * self.cell + self.first_planes.origin - turned.origin;
-            Se2::new(translation.x, translation.y, theta)
+            let translation = cells * self.cell + self.first_planes.origin - placed.origin;
+            Se2::new(translation.x, translation.y, placed.theta)
         };
         let is_allowed = |column: usize, row: usize| {
             bounds.is_none_or(|bounds| bounds.near(&first_from_second(column, row), self.cell))
@@ -111,16 +133,6 @@ impl<'a> CoarsePair<'a> {
                 score: f64::from(score),
             })
             .collect()
-    }
-
-    /// Radius of the second map about its centre, metres.
-    pub(crate) fn radius(&self) -> f64 {
-        let centre = self.second.centre;
-        self.second
-            .samples
-            .iter()
-            .map(|sample| (sample.at - centre).norm())
-            .fold(self.cell, f64::max)
     }
 }
 

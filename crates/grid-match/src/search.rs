@@ -30,9 +30,9 @@ const ALL_POINTS: usize = 3000;
 pub(crate) const OUT_OF_SIGHT: f64 = 12.0;
 /// Rotations by the two strongest peaks of the spectra, mostly those along and across the walls.
 const STRONGEST: usize = 4;
-/// How far to both sides of these, radians: 0.9°. Half of it moves a wall at the rim of the largest
-/// lattice by less than three cells, and most walls by one.
-const BESIDE: f64 = 0.0157;
+/// How far to both sides of these, radians: 0.6°. Half of it moves a wall at the rim of the largest
+/// lattice by less than two coarse cells, and most walls by less than one.
+const BESIDE: f64 = 0.0105;
 /// Refined candidates closer than this are one, metres and radians.
 const SAME: (f64, f64) = (0.3, 0.04);
 
@@ -132,14 +132,14 @@ impl<'a> Search<'a> {
             }
             Effort::Standard => {
                 let rotations = rotation::beside(&self.suggested[..self.closely], BESIDE);
-                Tier { rotations, candidates: 30, survivors: 5 }
+                Tier { rotations, candidates: 60, survivors: 5 }
             }
             Effort::Thorough => {
                 let mut rotations = rotation::sweep();
                 if let Some(bounds) = &self.bounds {
                     rotations.retain(|&theta| bounds.allows_rotation(theta));
                 }
-                Tier { rotations, candidates: 150, survivors: 24 }
+                Tier { rotations, candidates: 60, survivors: 5 }
             }
         }
     }

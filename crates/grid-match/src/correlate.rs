@@ -72,7 +72,7 @@ impl Correlator {
     }
 
     /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ, and the same of second(−x): of the second map
-    /// turned by half, about the corner that cells (0, 0) and (−1, −1) share.
+    /// turned by half about the middle of its cell (0, 0).
     ///
     /// One transform back gives both, for each is real: one goes in as what is even under a change
     /// of sign and conjugation, the other times i.
@@ -186,10 +186,10 @@ fn fast_length(least: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::Correlator;
+    use super::{Correlator, Surface};
     use crate::correlation_planes::CorrelationPlanes;
     use nalgebra::Vector2;
-    use proptest::prelude::{Strategy, prop, prop_assert, proptest};
+    use proptest::prelude::{Strategy, prop, prop_assert, prop_assert_eq, proptest};
     use rustfft::num_complex::Complex32;
 
     fn planes() -> impl Strategy<Value = CorrelationPlanes> {
@@ -235,6 +235,28 @@ mod tests {
                     }
                 }
             }
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_highest_maxima_of_those_wanted_are_found(
+            columns in 2_usize..14, rows in 2_usize..14, most in 1_usize..4, refused in 0_usize..4,
+            heights in prop::collection::vec(-3_i8..9, 13 * 13),
+        ) {
+            let heights = heights[..columns * rows].iter().map(|&height| f32::from(height));
+            let scores: Vec<Complex32> = heights.map(Complex32::from).collect();
+            let surface = Surface { columns, rows, scores: &scores, score: |score| score.re };
+            let is_wanted = |column: usize, row: usize| (column + row) % 4 != refused;
+            let found = surface.maxima(most, is_wanted);
+            let all = surface.maxima(columns * rows, |_, _| true);
+            let wanted = all.into_iter().filter(|&(column, row, _)| is_wanted(column, row));
+            let expected: Vec<_> = wanted.take(most).collect();
+            let heights = |maxima: &[(usize, usize, f32)]| -> Vec<f32> {
+                maxima.iter().map(|&(.., height)| height).collect()
+            };
+            prop_assert_eq!(heights(&found), heights(&expected));
+            prop_assert!(found.iter().all(|&(column, row, _)| is_wanted(column, row)));
         }
     }
 }

@@ -20,7 +20,7 @@ use crate::prepare::PreparedMap;
 use crate::refine::polish;
 use crate::report::{Hypothesis, MatchReport};
 use crate::score::NOT_COMPARABLE;
-use crate::search::{Fit, OUT_OF_SIGHT, Search, evaluate_in_full};
+use crate::search::{Fit, OUT_OF_SIGHT, Search, evaluate_in_full, moved_in_full};
 use crate::weights::WEIGHTS;
 use crate::work::Work;
 
@@ -28,8 +28,10 @@ use crate::work::Work;
 const MOST_HYPOTHESES: usize = 5;
 /// A pose is a rival of the best if it is at least so likely beside it, whatever its score.
 const RIVAL_SHARE: f64 = 0.2;
-/// A pose that is less likely is not polished: it is listed, no more.
+/// Where it is less likely that any pose is right, the best alone is polished.
 const WORTH_POLISHING: f64 = 0.05;
+/// Nor is a pose whose score is so far below the best: it is listed, no more.
+const HOPELESS: f64 = 8.0;
 /// Share of the work after which both maps are prepared.
 const PREPARED: f64 = 0.2;
 /// Share of the work after which all poses are found, but not polished.
@@ -126,15 +128,15 @@ fn search(
     let polished = Steps::new(&polished, found.len());
     let contains =
         |first_from_second: &Se2| bounds.is_none_or(|bounds| bounds.contains(first_from_second));
-    let likely = believed(&found);
-    let found: Vec<(Fit, f64)> = found.into_iter().zip(likely).collect();
+    let is_worth_it = believed(&found).iter().sum::<f64>() >= WORTH_POLISHING;
+    let least = best - if is_worth_it { HOPELESS } else { 0.0 };
     let found = each(
         &found,
         || (),
-        |(), (fit, probability)| {
+        |(), fit| {
             let start_first_from_second = fit.first_from_second;
             let mut first_from_second = start_first_from_second;
-            if *probability >= WORTH_POLISHING {
+            if fit.score >= least {
                 first_from_second = polish(first, second, start_first_from_second);
             }
             // What is reported is what was polished, so it is what has to be weighed and bounded.
@@ -214,9 +216,9 @@ fn hypothesis(
     fit: &Fit,
     probability: f64,
 ) -> Hypothesis {
-    let Fit { first_from_second, evidence, score, ref patches } = *fit;
+    let Fit { first_from_second, evidence, score, .. } = *fit;
     let scale = first.resolution().max(second.resolution()).max(0.08);
-    let bend = bend(first, second, &first_from_second, patches);
+    let bend = bend(first, second, &first_from_second, &moved_in_full(first, second, fit));
     let (covariance, weak_direction) = covariance(first, second, &first_from_second, scale, &bend);
     Hypothesis {
         pose: RelativePose {

@@ -54,8 +54,8 @@ pub(crate) fn relax(
 ) -> RelaxedWalls {
     let used = map.walls.len().min(most);
     let length = map.wall_length() / used.max(1) as f64;
-    let patches = map.patches.iter().map(|patch| Part { patch, walls: patch.walls(most) });
-    let chain = Chain { on, on_from_map: *on_from_map, reach, length, parts: patches.collect() };
+    let parts = map.patches.iter().map(|patch| Part { patch, walls: patch.walls(most) });
+    let chain = Chain { on, on_from_map: *on_from_map, reach, length, parts: parts.collect() };
     chain.settle()
 }
 

@@ -9,9 +9,9 @@ use crate::parallel::each;
 use crate::params::Effort;
 use crate::prepare::PreparedMap;
 use crate::refine::{Points, Sides, refine};
-use crate::relax::MovedPatch;
+use crate::relax::{MovedPatch, relax};
 use crate::rotation;
-use crate::translation::{Candidate, CoarsePair, distinct};
+use crate::translation::{Candidate, CoarsePair, distinct, same_place};
 use crate::wall_counts::Reach;
 use crate::work::Work;
 
@@ -25,8 +25,8 @@ const FINE_SCALES: [f64; 5] = [0.2, 0.14, 0.1, 0.08, 0.08];
 const FINE_POINTS: usize = 1000;
 /// Wall points of each map in the score that is reported.
 const ALL_POINTS: usize = 3000;
-/// A pose whose score is so far below that of the best is not looked at any closer, nor listed: what
-/// is still open of it moves a score by less than half of that.
+/// A pose whose score is so far below that of the best is not looked at any closer, nor listed; a
+/// closer look at the poses of real pairs raised no score by more than five.
 pub(crate) const OUT_OF_SIGHT: f64 = 12.0;
 /// Rotations by the two strongest peaks of the spectra, mostly those along and across the walls.
 const STRONGEST: usize = 4;
@@ -54,10 +54,10 @@ struct Tier {
 }
 
 impl Tier {
-    /// About what correlating, refining and evaluating cost beside each other: a rotation costs as
-    /// much as two survivors or 25 candidates.
+    /// About what correlating, refining and evaluating cost beside each other: a rotation and its
+    /// half turn cost as much as two survivors or 25 candidates.
     fn costs(&self) -> [f64; 3] {
-        let count = self.rotations.len().max(1);
+        let count = rotation::by_half_turns(&self.rotations).len().max(1);
         [count as f64, 0.04 * self.candidates as f64, 0.5 * self.survivors as f64]
     }
 }
@@ -139,7 +139,7 @@ impl<'a> Search<'a> {
                 if let Some(bounds) = &self.bounds {
                     rotations.retain(|&theta| bounds.allows_rotation(theta));
                 }
-                Tier { rotations, candidates: 60, survivors: 5 }
+                Tier { rotations, candidates: 150, survivors: 24 }
             }
         }
     }
@@ -172,8 +172,21 @@ impl<'a> Search<'a> {
             },
         )?;
         refined.sort_by(|a, b| b.score.total_cmp(&a.score));
-        let best = refined.first().map_or(0.0, |candidate| candidate.score);
+        let is_inside = |candidate: &&Candidate| {
+            self.bounds.is_none_or(|bounds| bounds.contains(&candidate.first_from_second))
+        };
+        let best = refined.iter().find(is_inside).map_or(f64::NEG_INFINITY, |best| best.score);
         refined.retain(|candidate| candidate.score > best - OUT_OF_SIGHT);
+        let (fits, centre) = (&self.fits, self.second.centre);
+        // What an earlier tier has looked at closely, and liked as well, takes no place of another.
+        let is_known = |candidate: &Candidate| {
+            let pose = &candidate.first_from_second;
+            fits.iter().any(|fit| {
+                fit.score >= candidate.score
+                    && same_place(&fit.first_from_second, pose, centre, SAME.0, SAME.1)
+            })
+        };
+        refined.retain(|candidate| !is_known(candidate));
         Ok(distinct(refined, self.second.centre, SAME.0, SAME.1, most))
     }
 
@@ -223,6 +236,21 @@ pub(crate) fn evaluate_in_full(
     first_from_second: Se2,
 ) -> Fit {
     Fit::of(first, second, first_from_second, ALL_POINTS)
+}
+
+/// Where the parts of the second map went, by all of its walls: how maps are bent shows in places,
+/// and of a large map some have too few of the points of a score.
+pub(crate) fn moved_in_full(
+    first: &PreparedMap,
+    second: &PreparedMap,
+    fit: &Fit,
+) -> Vec<MovedPatch> {
+    let walls = second.walls.len();
+    if walls <= ALL_POINTS {
+        return fit.patches.clone();
+    }
+    let reach = Reach::at(first.resolution().max(second.resolution()));
+    relax(second, first, &fit.first_from_second, reach, walls).patches
 }
 
 impl Fit {

@@ -222,3 +222,35 @@ impl Window {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{margin, sides};
+    use crate::lattice::Lattice;
+    use crate::state::State;
+    use nalgebra::Vector2;
+    use proptest::prelude::{prop_assert, proptest};
+
+    proptest! {
+        #[test]
+        fn a_wall_faces_the_side_from_which_it_was_seen_on_cells_of_any_size(power in -4.0_f64..3.0) {
+            let resolution = 10.0_f64.powf(power);
+            let around = margin(resolution) + 1;
+            let size = 2 * around + 1;
+            // A wall from below to above, free on its right up to the edge.
+            let state: Vec<State> = (0..size * size)
+                .map(|at| match (at % size).cmp(&around) {
+                    std::cmp::Ordering::Less => State::Unknown,
+                    std::cmp::Ordering::Equal if (around..size - around).contains(&(at / size)) => {
+                        State::Wall
+                    }
+                    _ => State::Free,
+                })
+                .collect();
+            let lattice = Lattice::new(size, size, resolution);
+            let facing = sides(&state, &lattice)[around * size + around].facing();
+            prop_assert!(!facing.is_open_behind, "{facing:?}");
+            prop_assert!(facing.normal.dot(&Vector2::x()) > 0.99, "{facing:?}");
+        }
+    }
+}

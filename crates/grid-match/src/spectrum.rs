@@ -65,6 +65,7 @@ fn power(points: &[WallPoint], bin: f64) -> Vec<f64> {
     let mut bins = vec![(0_u32, 0.0_f32); offsets.len()];
     // What falls to a bin and to the one above, side by side.
     let mut votes = vec![[0.0_f32; 2]; floor_index(2.0 * middle) + 2];
+    let last = i32::try_from(votes.len() - 1).unwrap_or(i32::MAX);
     (0..ANGLES)
         .map(|index| {
             let (sin, cos) = (index as f64 * PI / ANGLES as f64).sin_cos();
@@ -72,7 +73,7 @@ fn power(points: &[WallPoint], bin: f64) -> Vec<f64> {
             // Apart from the votes, for the places of several points are found at once.
             for (bin, [x, y]) in bins.iter_mut().zip(&offsets) {
                 let rho = x * cos + y * sin + middle;
-                let lower = rho as i32;
+                let lower = (rho as i32).clamp(0, last);
                 *bin = (lower.cast_unsigned(), rho - lower as f32);
             }
             votes.fill([0.0; 2]);

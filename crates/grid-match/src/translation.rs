@@ -76,11 +76,12 @@ impl<'a> CoarsePair<'a> {
         }
         let overlap = floor_index(LEAST_OVERLAP_M / self.cell);
         let correlator = Correlator::new(&self.first_planes, size, room, overlap);
-        let allowed = rotations.iter().take_while(|_| work.spend_transform(correlator.cells()));
-        let turns = rotation::by_half_turns(&rotations[..allowed.count()]);
+        let turns = rotation::by_half_turns(rotations);
+        let allowed = turns.iter().take_while(|_| work.spend_transform(correlator.cells()));
+        let turns = &turns[..allowed.count()];
         let done = Steps::new(progress, turns.len());
         let peaks = each(
-            &turns,
+            turns,
             || correlator.workspace(),
             |space, turn| {
                 let (map, free) = (self.second, &self.second_free);
@@ -182,4 +183,56 @@ fn coarse_cell(first: &PreparedMap, second: &PreparedMap) -> f64 {
     let largest = extents.iter().map(|extent| extent.max()).fold(0.0, f64::max);
     let resolution = first.resolution().max(second.resolution());
     (smallest / 60.0).clamp(0.06, 0.2).max(1.5 * resolution).max(largest / 450.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CoarsePair;
+    use crate::prepare::PreparedMap;
+    use crate::work::Work;
+    use nalgebra::Vector2;
+    use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
+    use std::f64::consts::PI;
+
+    /// A part of a flat of 9 × 7 m, in a frame of which it does not matter where it begins.
+    fn part([left, bottom]: [usize; 2], [width, height]: [usize; 2]) -> PreparedMap {
+        let is_wall = |column: usize, row: usize| {
+            let is_outer = matches!(column, 0 | 89) || matches!(row, 0 | 69);
+            let is_inner = column == 35 && row < 50 || row == 30 && column > 50;
+            is_outer || is_inner || column == 62 && row > 52 || row == 50 && column < 20
+        };
+        let cells = (0..width * height).map(|at| {
+            let wall = is_wall(left + at % width, bottom + at / width);
+            if wall { Occupancy::OCCUPIED } else { Occupancy::FREE }
+        });
+        let cells = Grid::new(width, height, cells.collect()).unwrap();
+        let corner = Se2::new(0.1 * left as f64, 0.1 * bottom as f64, 0.0);
+        let map = OccupancyGrid::new(GridFrame::new(0.1, corner).unwrap(), cells);
+        PreparedMap::new(&map, &ClassThresholds::default(), &()).unwrap()
+    }
+
+    #[test]
+    fn a_rotation_finds_the_same_place_alone_and_with_its_half_turn() {
+        let first = part([0, 0], [90, 70]);
+        // One answer is as good as the coarse cells, their mean is better.
+        let off = |rotations: &[f64]| {
+            let off = (0..10).map(|step| {
+                let second = part([8 + step, 5 + step], [70, 50]);
+                let pair = CoarsePair::new(&first, &second);
+                let mut work = Work::new(None);
+                let found = pair.candidates(rotations, 1, None, &mut work, &()).unwrap();
+                let found = found[0].first_from_second;
+                let truth = first.map_from_local.inverse() * second.map_from_local;
+                assert!(found.theta().abs() < 1e-9);
+                (found * second.centre - truth * second.centre) / pair.cell
+            });
+            off.sum::<Vector2<f64>>() / 10.0
+        };
+        let alone = off(&[0.0]);
+        assert!(alone.amax() < 0.7, "{alone}");
+        for rotations in [[-PI, 0.0], [PI, 0.0]] {
+            let with_half = off(&rotations);
+            assert!((with_half - alone).amax() < 0.4, "{alone} {with_half}");
+        }
+    }
 }

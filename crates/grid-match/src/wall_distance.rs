@@ -128,10 +128,10 @@ mod tests {
     proptest! {
         #[test]
         fn it_is_the_least_distance_to_any_wall_cut_off(
-            width in 1_usize..24, height in 1_usize..24, resolution in 0.05_f64..1.5,
+            width in 1_usize..24, height in 1_usize..24, power in -4.0_f64..3.0,
             walls in prop::collection::vec(0_usize..24 * 24, 0..6),
         ) {
-            let lattice = Lattice::new(width, height, resolution);
+            let lattice = Lattice::new(width, height, 10.0_f64.powf(power));
             let mut state = vec![State::Free; width * height];
             for wall in walls {
                 state[wall % (width * height)] = State::Wall;

@@ -39,7 +39,7 @@ impl Walls<'_> {
                 ((floor_index(square.y) * columns + floor_index(square.x)) as u64, at)
             })
             .collect();
-        walls.sort();
+        walls.sort_unstable();
         let squares = walls.chunk_by(|a, b| a.0 == b.0);
         let mut points: Vec<(u64, WallPoint)> = squares
             .map(|cells| {

@@ -28,10 +28,8 @@ use crate::work::Work;
 const MOST_HYPOTHESES: usize = 5;
 /// A pose is a rival of the best if it is at least so likely beside it, whatever its score.
 const RIVAL_SHARE: f64 = 0.2;
-/// Where it is less likely that any pose is right, the best alone is polished.
+/// A pose that is less likely is not polished: it is listed as the search left it.
 const WORTH_POLISHING: f64 = 0.05;
-/// Nor is a pose whose score is so far below the best: it is listed, no more.
-const HOPELESS: f64 = 8.0;
 /// Share of the work after which both maps are prepared.
 const PREPARED: f64 = 0.2;
 /// Share of the work after which all poses are found, but not polished.
@@ -128,15 +126,15 @@ fn search(
     let polished = Steps::new(&polished, found.len());
     let contains =
         |first_from_second: &Se2| bounds.is_none_or(|bounds| bounds.contains(first_from_second));
-    let is_worth_it = believed(&found).iter().sum::<f64>() >= WORTH_POLISHING;
-    let least = best - if is_worth_it { HOPELESS } else { 0.0 };
+    let likely = believed(&found);
+    let found: Vec<(Fit, f64)> = found.into_iter().zip(likely).collect();
     let found = each(
         &found,
         || (),
-        |(), fit| {
+        |(), (fit, probability)| {
             let start_first_from_second = fit.first_from_second;
             let mut first_from_second = start_first_from_second;
-            if fit.score >= least {
+            if *probability >= WORTH_POLISHING {
                 first_from_second = polish(first, second, start_first_from_second);
             }
             // What is reported is what was polished, so it is what has to be weighed and bounded.

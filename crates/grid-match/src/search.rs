@@ -11,7 +11,7 @@ use crate::prepare::PreparedMap;
 use crate::refine::{Points, Sides, refine};
 use crate::relax::{MovedPatch, relax};
 use crate::rotation;
-use crate::translation::{Candidate, CoarsePair, distinct, same_place};
+use crate::translation::{Candidate, CoarsePair, distinct};
 use crate::wall_counts::Reach;
 use crate::work::Work;
 
@@ -30,9 +30,9 @@ const ALL_POINTS: usize = 3000;
 pub(crate) const OUT_OF_SIGHT: f64 = 12.0;
 /// Rotations by the two strongest peaks of the spectra, mostly those along and across the walls.
 const STRONGEST: usize = 4;
-/// How far to both sides of these, radians: 0.6°. Half of it moves a wall at the rim of the largest
-/// lattice by less than two coarse cells, and most walls by less than one.
-const BESIDE: f64 = 0.0105;
+/// How far to both sides of these, radians: 0.9°. Half of it moves a wall at the rim of the largest
+/// lattice by less than three coarse cells, and most walls by one.
+const BESIDE: f64 = 0.0157;
 /// Refined candidates closer than this are one, metres and radians.
 const SAME: (f64, f64) = (0.3, 0.04);
 
@@ -132,7 +132,7 @@ impl<'a> Search<'a> {
             }
             Effort::Standard => {
                 let rotations = rotation::beside(&self.suggested[..self.closely], BESIDE);
-                Tier { rotations, candidates: 60, survivors: 5 }
+                Tier { rotations, candidates: 30, survivors: 5 }
             }
             Effort::Thorough => {
                 let mut rotations = rotation::sweep();
@@ -177,16 +177,6 @@ impl<'a> Search<'a> {
         };
         let best = refined.iter().find(is_inside).map_or(f64::NEG_INFINITY, |best| best.score);
         refined.retain(|candidate| candidate.score > best - OUT_OF_SIGHT);
-        let (fits, centre) = (&self.fits, self.second.centre);
-        // What an earlier tier has looked at closely, and liked as well, takes no place of another.
-        let is_known = |candidate: &Candidate| {
-            let pose = &candidate.first_from_second;
-            fits.iter().any(|fit| {
-                fit.score >= candidate.score
-                    && same_place(&fit.first_from_second, pose, centre, SAME.0, SAME.1)
-            })
-        };
-        refined.retain(|candidate| !is_known(candidate));
         Ok(distinct(refined, self.second.centre, SAME.0, SAME.1, most))
     }
 

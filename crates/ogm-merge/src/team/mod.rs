@@ -39,8 +39,9 @@ const MATCHED: f64 = 0.8;
 /// for and against a join is counted once, on the maps of each group laid together, so that a map
 /// that no single other places may be placed by all of them, and one pair whose maps contradict
 /// each other in a join vetoes it. What cannot be placed stays apart. The joint poses are those of
-/// least squares over all pairs that agree. Neither the order of the maps nor copies among them
-/// change the answer.
+/// least squares over all pairs that agree. Copies do not change the answer, nor does the order of
+/// the maps as a rule; but groups are laid together in the frame of their first map, so that a join
+/// that only just comes about may depend on it.
 ///
 /// # Errors
 /// Input that cannot be meant, or a call that was cancelled; maps that do not hang together are

@@ -3,27 +3,25 @@
 use nalgebra::{Rotation2, Vector2};
 use ogm_core::{Se2, wrap_angle};
 
-use crate::patches::relax;
 use crate::prepare::PreparedMap;
+use crate::relax::MovedPatch;
 use crate::report::{Bend, PatchMotion};
-use crate::wall_counts::Reach;
 
 /// Fewest patches that say anything about a stretch.
 const LEAST_PATCHES: usize = 4;
 /// Least metres over which patches must lie to say anything about a stretch.
 const LEAST_LENGTH_M: f64 = 6.0;
 
-/// Motions of the patches of `source` on `target` beside the pose of the whole map.
+/// Motions of the patches of `source` on `target`, where they were `moved` to, beside the pose of
+/// the whole map.
 pub(crate) fn bend(
     target: &PreparedMap,
     source: &PreparedMap,
     target_local_from_source_local: &Se2,
+    moved: &[MovedPatch],
 ) -> Bend {
-    let reach = Reach::at(target.resolution().max(source.resolution()));
     let pose = target_local_from_source_local;
-    let relaxed = relax(source, target, pose, reach, source.walls.len());
-    let patches: Vec<PatchMotion> = relaxed
-        .patches
+    let patches: Vec<PatchMotion> = moved
         .iter()
         .filter(|patch| patch.hit_m >= 0.5 * patch.wall_m)
         .map(|patch| {

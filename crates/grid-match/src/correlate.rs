@@ -29,6 +29,7 @@ pub(crate) struct Surface<'a> {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
     scores: &'a [Complex32],
+    score: fn(&Complex32) -> f32,
 }
 
 impl Correlator {
@@ -70,21 +71,38 @@ impl Correlator {
         Workspace { work, turned, scratch: zeros(scratch) }
     }
 
-    /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ.
+    /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ, and the same of second(−x): of the second map
+    /// turned by half about the middle of its cell (0, 0).
+    ///
+    /// One transform back gives both, for each is real: one goes in as what is even under a change
+    /// of sign and conjugation, the other times i.
     pub(crate) fn correlate<'a>(
         &self,
         second: &CorrelationPlanes,
         space: &'a mut Workspace,
-    ) -> Surface<'a> {
+    ) -> [Surface<'a>; 2] {
         self.transform(second, space);
         let Workspace { work, turned, scratch } = space;
-        for (value, &first) in turned.iter_mut().zip(&self.spectrum) {
-            *value = first * value.conj();
+        for column in 0..=self.columns / 2 {
+            let opposite = (self.columns - column) % self.columns;
+            let rows = if opposite == column { self.rows / 2 + 1 } else { self.rows };
+            for row in 0..rows {
+                let here = column * self.rows + row;
+                let there = opposite * self.rows + (self.rows - row) % self.rows;
+                let (first, first_there) = (self.spectrum[here], self.spectrum[there].conj());
+                let (own, own_there) = (turned[here], turned[there]);
+                let plain = (first * own.conj() + first_there * own_there) * 0.5;
+                let half = (first * own_there.conj() + first_there * own) * 0.5;
+                turned[here] = plain + Complex32::I * half;
+                turned[there] = plain.conj() + Complex32::I * half.conj();
+            }
         }
         self.along_columns[1].process_with_scratch(turned, scratch);
-        transpose(turned, work, self.rows);
+        transpose::transpose(turned, work, self.rows, self.columns);
         self.along_rows[1].process_with_scratch(work, scratch);
-        Surface { columns: self.columns, rows: self.rows, scores: work }
+        let scores: &[Complex32] = work;
+        let parts: [fn(&Complex32) -> f32; 2] = [|both| both.re, |both| both.im];
+        parts.map(|score| Surface { columns: self.columns, rows: self.rows, scores, score })
     }
 
     /// The transform of `map`, transposed, into what is turned in `space`.
@@ -97,7 +115,7 @@ impl Correlator {
         }
         let filled = &mut work[..map.height * self.columns];
         self.along_rows[0].process_with_scratch(filled, scratch);
-        transpose(work, turned, self.columns);
+        transpose::transpose(work, turned, self.columns, self.rows);
         self.along_columns[0].process_with_scratch(turned, scratch);
     }
 }
@@ -105,20 +123,26 @@ impl Correlator {
 impl Surface<'_> {
     /// Unscaled: the inverse transform multiplies by the number of cells.
     pub(crate) fn score(&self, column: usize, row: usize) -> f32 {
-        self.scores[row * self.columns + column].re
+        (self.score)(&self.scores[row * self.columns + column])
     }
 
-    /// Local maxima above `floor`: column, row and score in coarse cells of wall.
-    pub(crate) fn maxima(&self, floor: f32) -> Vec<(usize, usize, f32)> {
+    /// The `most` highest local maxima above zero of those that are wanted, highest first: column,
+    /// row and score in coarse cells of wall.
+    pub(crate) fn maxima(
+        &self,
+        most: usize,
+        is_wanted: impl Fn(usize, usize) -> bool,
+    ) -> Vec<(usize, usize, f32)> {
         let (columns, rows) = (self.columns, self.rows);
-        let scale = 1.0 / (columns * rows) as f32;
-        let mut found = Vec::new();
+        // Below the lowest of enough that were found, nothing has to be looked at closely.
+        let mut floor = 0.0;
+        let mut found: Vec<(usize, usize, f32)> = Vec::new();
         for row in 0..rows {
             let around = |at: usize, count: usize| [(at + count - 1) % count, (at + 1) % count];
             let [below, above] = around(row, rows);
             let here = &self.scores[row * columns..][..columns];
-            for (column, here) in here.iter().map(|score| score.re).enumerate() {
-                if here * scale <= floor {
+            for (column, here) in here.iter().map(self.score).enumerate() {
+                if here <= floor {
                     continue;
                 }
                 let [left, right] = around(column, columns);
@@ -127,13 +151,24 @@ impl Surface<'_> {
                     && [left, column, right].iter().all(|&near| {
                         here > self.score(near, below) && here >= self.score(near, above)
                     });
-                if is_peak {
-                    found.push((column, row, here * scale));
+                if is_peak && is_wanted(column, row) {
+                    found.push((column, row, here));
+                    if found.len() == 4 * most {
+                        keep_highest(&mut found, most);
+                        floor = found.last().map_or(0.0, |&(.., lowest)| lowest);
+                    }
                 }
             }
         }
-        found
+        keep_highest(&mut found, most);
+        let scale = 1.0 / (columns * rows) as f32;
+        found.into_iter().map(|(column, row, score)| (column, row, score * scale)).collect()
     }
+}
+
+fn keep_highest(maxima: &mut Vec<(usize, usize, f32)>, most: usize) {
+    maxima.sort_by(|a, b| b.2.total_cmp(&a.2));
+    maxima.truncate(most);
 }
 
 /// The least length not below `least` whose only factors are 2, 3 and 5.
@@ -149,27 +184,12 @@ fn fast_length(least: usize) -> usize {
     (least.max(2)..).find(|&length| smooth(length)).unwrap_or(least)
 }
 
-/// `input` of `width` columns transposed, in blocks that stay in the cache.
-fn transpose(input: &[Complex32], output: &mut [Complex32], width: usize) {
-    const BLOCK: usize = 16;
-    let height = input.len() / width;
-    for row in (0..height).step_by(BLOCK) {
-        for column in (0..width).step_by(BLOCK) {
-            for y in row..(row + BLOCK).min(height) {
-                for x in column..(column + BLOCK).min(width) {
-                    output[x * height + y] = input[y * width + x];
-                }
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Correlator, transpose};
+    use super::{Correlator, Surface};
     use crate::correlation_planes::CorrelationPlanes;
     use nalgebra::Vector2;
-    use proptest::prelude::{Strategy, prop, prop_assert, proptest};
+    use proptest::prelude::{Strategy, prop, prop_assert, prop_assert_eq, proptest};
     use rustfft::num_complex::Complex32;
 
     fn planes() -> impl Strategy<Value = CorrelationPlanes> {
@@ -195,31 +215,48 @@ mod tests {
         ) {
             let correlator = Correlator::new(&first, [second.width, second.height], [0, 0], 0);
             let mut space = correlator.workspace();
-            let surface = correlator.correlate(&second, &mut space);
+            let [surface, half] = correlator.correlate(&second, &mut space);
             let (columns, rows) = (surface.columns, surface.rows);
             let scale = 1.0 / (columns * rows) as f32;
             for row in 0..rows {
                 for column in 0..columns {
-                    let mut sum = Complex32::default();
+                    let (mut sum, mut of_half) = (Complex32::default(), Complex32::default());
                     for y in 0..second.height {
                         for x in 0..second.width {
-                            let there = at(&first, (x + column) % columns, (y + row) % rows);
-                            sum += there * at(&second, x, y).conj();
+                            let own = at(&second, x, y).conj();
+                            sum += at(&first, (x + column) % columns, (y + row) % rows) * own;
+                            let opposite = [columns - x + column, rows - y + row];
+                            of_half += at(&first, opposite[0] % columns, opposite[1] % rows) * own;
                         }
                     }
-                    let found = surface.score(column, row) * scale;
-                    prop_assert!((found - sum.re).abs() < 1e-4, "{found} instead of {}", sum.re);
+                    for (surface, sum) in [(&surface, sum), (&half, of_half)] {
+                        let found = surface.score(column, row) * scale;
+                        prop_assert!((found - sum.re).abs() < 1e-4, "{found} not {}", sum.re);
+                    }
                 }
             }
         }
     }
 
-    #[test]
-    fn a_transpose_puts_rows_into_columns() {
-        let numbers: Vec<Complex32> = (0..6_u8).map(|n| Complex32::from(f32::from(n))).collect();
-        let mut turned = vec![Complex32::default(); 6];
-        transpose(&numbers, &mut turned, 3);
-        let real: Vec<f32> = turned.iter().map(|number| number.re).collect();
-        assert_eq!(real, [0.0, 3.0, 1.0, 4.0, 2.0, 5.0]);
+    proptest! {
+        #[test]
+        fn the_highest_maxima_of_those_wanted_are_found(
+            columns in 2_usize..14, rows in 2_usize..14, most in 1_usize..4, refused in 0_usize..4,
+            heights in prop::collection::vec(-3_i8..9, 13 * 13),
+        ) {
+            let heights = heights[..columns * rows].iter().map(|&height| f32::from(height));
+            let scores: Vec<Complex32> = heights.map(Complex32::from).collect();
+            let surface = Surface { columns, rows, scores: &scores, score: |score| score.re };
+            let is_wanted = |column: usize, row: usize| (column + row) % 4 != refused;
+            let found = surface.maxima(most, is_wanted);
+            let all = surface.maxima(columns * rows, |_, _| true);
+            let wanted = all.into_iter().filter(|&(column, row, _)| is_wanted(column, row));
+            let expected: Vec<_> = wanted.take(most).collect();
+            let heights = |maxima: &[(usize, usize, f32)]| -> Vec<f32> {
+                maxima.iter().map(|&(.., height)| height).collect()
+            };
+            prop_assert_eq!(heights(&found), heights(&expected));
+            prop_assert!(found.iter().all(|&(column, row, _)| is_wanted(column, row)));
+        }
     }
 }

@@ -3,6 +3,7 @@
 use ogm_core::{CellClass, CellIndex, ClassThresholds, Occupancy, OccupancyGrid, Se2};
 
 use crate::lattice::{Lattice, floor_index};
+use crate::sides::margin;
 use crate::state::State;
 use crate::visible::{halo, visible_walls};
 
@@ -45,12 +46,9 @@ impl Crop {
         }
         let fine = map.frame().resolution();
         let resolution = fine * factor as f64;
-        let border = floor_index(BORDER_M / resolution).min(64) + 1;
-        let lattice = Lattice {
-            width: width.div_ceil(factor) + 2 * border,
-            height: height.div_ceil(factor) + 2 * border,
-            resolution,
-        };
+        let border = floor_index(BORDER_M / resolution).min(64).max(margin(resolution)) + 1;
+        let [columns, rows] = [width, height].map(|fine| fine.div_ceil(factor) + 2 * border);
+        let lattice = Lattice::new(columns, rows, resolution);
         let inset = border as f64 * resolution;
         let corner = Se2::new(left as f64 * fine - inset, bottom as f64 * fine - inset, 0.0);
         let map_from_local = map.frame().map_from_grid() * corner;

@@ -3,8 +3,8 @@
 use ogm_core::Se2;
 
 use crate::evidence::{Evidence, Relaxed, WallFit};
-use crate::patches::relax;
 use crate::prepare::PreparedMap;
+use crate::relax::{MovedPatch, relax};
 use crate::state::State;
 use crate::surroundings::Surroundings;
 use crate::wall_counts::{Reach, WallCounts};
@@ -12,15 +12,16 @@ use crate::wall_counts::{Reach, WallCounts};
 /// Most samples of the area for each wall point that may be looked at.
 const SAMPLES_A_POINT: usize = 2;
 
-/// The evidence on at most `most` wall points of each map.
+/// The evidence on at most `most` wall points of each map, and where the parts of the second went.
 pub(crate) fn evaluate(
     first: &PreparedMap,
     second: &PreparedMap,
     first_from_second: &Se2,
     reach: Reach,
     most: usize,
-) -> Evidence {
+) -> (Evidence, Vec<MovedPatch>) {
     let mut evidence = evaluate_rigid(first, second, first_from_second, reach, most);
+    let mut patches = Vec::new();
     if evidence.is_comparable() {
         let second_from_first = first_from_second.inverse();
         let forth = relax(second, first, first_from_second, reach, most);
@@ -30,8 +31,9 @@ pub(crate) fn evaluate(
             cross_m: 0.5 * (forth.cross_m + back.cross_m),
             moved_m: 0.5 * (forth.moved_m + back.moved_m),
         };
+        patches = forth.patches;
     }
-    evidence
+    (evidence, patches)
 }
 
 /// The evidence of each map as one piece that does not give way.
@@ -51,7 +53,7 @@ pub(crate) fn evaluate_rigid(
         let Surroundings { distance, state, .. } = first.cells[cell];
         let is_known = state != State::Unknown;
         known += u32::from(is_known);
-        near += u32::from(is_known && f64::from(distance) <= reach.hit);
+        near += u32::from(is_known && distance.metres() <= reach.hit);
         free += u32::from(state == State::Free && sample.free);
     }
     let sample_area = second.sample_area * stride as f64;

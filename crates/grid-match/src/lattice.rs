@@ -8,6 +8,8 @@ pub(crate) struct Lattice {
     pub(crate) width: usize,
     pub(crate) height: usize,
     pub(crate) resolution: f64,
+    /// Cells, for a division at each place that is looked up takes as long as the rest.
+    per_metre: f64,
 }
 
 /// A value between cell centres and how it changes.
@@ -32,6 +34,10 @@ pub(crate) struct Corners {
 }
 
 impl Lattice {
+    pub(crate) fn new(width: usize, height: usize, resolution: f64) -> Self {
+        Self { width, height, resolution, per_metre: 1.0 / resolution }
+    }
+
     /// The centre of the cell at `index`, row-major.
     pub(crate) fn centre(&self, index: usize) -> Point2<f64> {
         let (column, row) = (index % self.width, index / self.width);
@@ -41,7 +47,7 @@ impl Lattice {
     /// The cell that contains `point`, row-major.
     #[inline]
     pub(crate) fn index(&self, point: Point2<f64>) -> Option<usize> {
-        let (x, y) = (point.x / self.resolution, point.y / self.resolution);
+        let (x, y) = (point.x * self.per_metre, point.y * self.per_metre);
         let inside = x >= 0.0 && y >= 0.0 && x < self.width as f64 && y < self.height as f64;
         inside.then(|| floor_index(y) * self.width + floor_index(x))
     }
@@ -49,7 +55,7 @@ impl Lattice {
     /// The four cell centres around `point`, unless one lies outside.
     #[inline]
     pub(crate) fn corners(&self, point: Point2<f64>) -> Option<Corners> {
-        let per_metre = 1.0 / self.resolution;
+        let per_metre = self.per_metre;
         let (x, y) = (point.x * per_metre - 0.5, point.y * per_metre - 0.5);
         let inside =
             x >= 0.0 && y >= 0.0 && x < (self.width - 1) as f64 && y < (self.height - 1) as f64;

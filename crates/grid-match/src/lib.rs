@@ -40,11 +40,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! How it works: Hough spectra of the walls suggest a few rotations; for each, one complex Fourier
-//! transform scores every translation by walls on walls, walls in free space and free space on free
-//! space; the best candidates follow the distance fields of both maps by robust Gauss–Newton; what
-//! is left is scored in metres of wall, for and against. [`PreparedMap`] keeps what is computed of
-//! one map alone. The order of the two maps, their origins and the number of threads do not matter.
+//! How it works: Hough spectra of the walls suggest a few rotations; for each and its half turn,
+//! one complex Fourier transform scores every translation by walls on walls, walls in free space and
+//! free space on free space; the best candidates follow the distance fields of both maps by robust
+//! Gauss–Newton; what is left is scored in metres of wall, for and against. [`PreparedMap`] keeps
+//! what is computed of one map alone. The order of the two maps, their origins and the number of
+//! threads do not matter.
 
 mod bend;
 mod bounds;
@@ -65,6 +66,7 @@ mod params;
 mod patches;
 mod prepare;
 mod refine;
+mod relax;
 mod report;
 mod rotation;
 mod score;
@@ -79,6 +81,7 @@ mod terms;
 mod translation;
 mod visible;
 mod wall_counts;
+mod wall_distance;
 mod wall_points;
 mod weights;
 mod work;

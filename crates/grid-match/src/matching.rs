@@ -20,7 +20,7 @@ use crate::prepare::PreparedMap;
 use crate::refine::polish;
 use crate::report::{Hypothesis, MatchReport};
 use crate::score::NOT_COMPARABLE;
-use crate::search::{Fit, Search, evaluate_in_full};
+use crate::search::{Fit, OUT_OF_SIGHT, Search, evaluate_in_full, moved_in_full};
 use crate::weights::WEIGHTS;
 use crate::work::Work;
 
@@ -28,8 +28,8 @@ use crate::work::Work;
 const MOST_HYPOTHESES: usize = 5;
 /// A pose is a rival of the best if it is at least so likely beside it, whatever its score.
 const RIVAL_SHARE: f64 = 0.2;
-/// A pose whose score is so far below the best is not polished: it is listed, no more.
-const HOPELESS: f64 = 8.0;
+/// A pose that is less likely is not polished: it is listed as the search left it.
+const WORTH_POLISHING: f64 = 0.05;
 /// Share of the work after which both maps are prepared.
 const PREPARED: f64 = 0.2;
 /// Share of the work after which all poses are found, but not polished.
@@ -119,19 +119,22 @@ fn search(
             break;
         }
     }
+    let best = found.first().map_or(0.0, |fit| fit.score);
+    found.retain(|fit| fit.score > best - OUT_OF_SIGHT);
     found.truncate(MOST_HYPOTHESES + 1);
     let polished = Stage::new(progress, SEARCHED, 1.0);
     let polished = Steps::new(&polished, found.len());
-    let best = found.first().map_or(0.0, |fit| fit.score);
     let contains =
         |first_from_second: &Se2| bounds.is_none_or(|bounds| bounds.contains(first_from_second));
+    let likely = believed(&found);
+    let found: Vec<(Fit, f64)> = found.into_iter().zip(likely).collect();
     let found = each(
         &found,
         || (),
-        |(), fit| {
+        |(), (fit, probability)| {
             let start_first_from_second = fit.first_from_second;
             let mut first_from_second = start_first_from_second;
-            if fit.score > best - HOPELESS {
+            if *probability >= WORTH_POLISHING {
                 first_from_second = polish(first, second, start_first_from_second);
             }
             // What is reported is what was polished, so it is what has to be weighed and bounded.
@@ -211,9 +214,9 @@ fn hypothesis(
     fit: &Fit,
     probability: f64,
 ) -> Hypothesis {
-    let Fit { first_from_second, evidence, score } = *fit;
+    let Fit { first_from_second, evidence, score, .. } = *fit;
     let scale = first.resolution().max(second.resolution()).max(0.08);
-    let bend = bend(first, second, &first_from_second);
+    let bend = bend(first, second, &first_from_second, &moved_in_full(first, second, fit));
     let (covariance, weak_direction) = covariance(first, second, &first_from_second, scale, &bend);
     Hypothesis {
         pose: RelativePose {

@@ -10,7 +10,19 @@ pub(crate) fn each<T: Sync, R: Send, S: Send>(
     of: impl Fn(&mut S, &T) -> Result<R, Cancelled> + Sync + Send,
 ) -> Result<Vec<R>, Cancelled> {
     use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
-    items.par_iter().map_init(scratch, of).collect()
+    use std::sync::{Mutex, PoisonError};
+
+    // Rayon makes a scratch for each piece of the work, of which there are more than threads.
+    let idle: Mutex<Vec<S>> = Mutex::new(Vec::new());
+    let idle = || idle.lock().unwrap_or_else(PoisonError::into_inner);
+    let with_scratch = |item| {
+        let taken = idle().pop();
+        let mut own = taken.unwrap_or_else(&scratch);
+        let result = of(&mut own, item);
+        idle().push(own);
+        result
+    };
+    items.par_iter().map(with_scratch).collect()
 }
 
 /// `of` each item, in their order; what `scratch` makes is used for one item after the other.

@@ -44,7 +44,7 @@ impl Default for MatchParams {
 pub enum Effort {
     /// The rotations that the walls' directions suggest.
     Fast,
-    /// Then rotations around these.
+    /// Then a little to both sides of the strongest of these.
     Standard,
     /// Then a whole turn in steps of 3°: helps maps whose walls have no direction.
     Thorough,

@@ -1,18 +1,18 @@
 //! What is computed of one map alone, whatever it is matched with.
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::{Cancelled, ClassThresholds, Grid, OccupancyGrid, Progress, Se2, l2_distance_sq};
+use ogm_core::{Cancelled, ClassThresholds, OccupancyGrid, Progress, Se2};
 
 use crate::crop::Crop;
 use crate::lattice::{Lattice, Slope};
+use crate::patches::{Patch, patches};
 use crate::sides::sides;
 use crate::spectrum::{Spectrum, hough_spectrum};
 use crate::state::State;
 use crate::surroundings::{Surroundings, surroundings};
+use crate::wall_distance::wall_distance;
 use crate::wall_points::{WallPoint, Walls};
 
-/// Distances are cut off here, metres: twice what the widest refinement still weighs.
-const FARTHEST_M: f64 = 2.0;
 /// Least metres of wall that a point stands for.
 const SPACING_M: f64 = 0.1;
 /// Most sampled cells that stand for the known area.
@@ -28,6 +28,8 @@ pub struct PreparedMap {
     pub(crate) cells: Vec<Surroundings>,
     /// In the order of [`LEVELS`](crate::wall_points::LEVELS).
     pub(crate) walls: Vec<WallPoint>,
+    /// The same walls by the square that they stand in.
+    pub(crate) patches: Vec<Patch>,
     /// Metres of wall that a point stands for.
     pub(crate) spacing: f64,
     pub(crate) samples: Vec<AreaSample>,
@@ -84,6 +86,7 @@ impl PreparedMap {
             map_from_local,
             lattice,
             cells,
+            patches: patches(&walls),
             walls,
             spacing,
             samples,
@@ -121,22 +124,6 @@ impl PreparedMap {
 
 fn count(state: &[State], wanted: State) -> usize {
     state.iter().filter(|&&cell| cell == wanted).count()
-}
-
-#[expect(clippy::cast_possible_truncation, reason = "a distance in metres of single precision")]
-fn wall_distance(state: &[State], lattice: &Lattice) -> Vec<f32> {
-    let occupied = state.iter().map(|&cell| cell == State::Wall).collect();
-    let squared = Grid::new(lattice.width, lattice.height, occupied)
-        .ok()
-        .and_then(|mask| l2_distance_sq(&mask));
-    match squared {
-        Some(squared) => {
-            let (resolution, farthest) = (lattice.resolution as f32, FARTHEST_M as f32);
-            let metres = |cells: u32| ((cells as f32).sqrt() * resolution).min(farthest);
-            squared.into_cells().into_iter().map(metres).collect()
-        }
-        None => vec![FARTHEST_M as f32; state.len()],
-    }
 }
 
 /// Known cells on a square lattice, and the area that each stands for.

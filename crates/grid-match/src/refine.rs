@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 use ogm_core::Se2;
 
 use crate::lattice::{Slope, floor_index};
+use crate::patches::centroid;
 use crate::prepare::PreparedMap;
 use crate::sides::Facing;
 use crate::state::State;
@@ -21,7 +22,7 @@ const POLISH_STEPS: usize = 12;
 const CONVERGED_CELLS: f64 = 1e-3;
 /// And a turn below this, radians.
 const CONVERGED_RAD: f64 = 1e-6;
-/// Wall points of each map in a polish; more say the same.
+/// Wall points of each map in a polish.
 pub(crate) const POLISH_POINTS: usize = 20_000;
 
 /// Normal equations of the symmetric problem, about a centre.
@@ -66,10 +67,16 @@ impl Sides {
         if self == Self::Facing { 0.5 } else { 0.0 }
     }
 
-    /// How far wall of another map, at `at` with `normal`, is from the walls of `map`, unless
+    /// How far wall of another map, at `at` and `facing`, is from the walls of `map`, unless
     /// that is too far to matter at `scale`.
     #[inline]
-    fn pull(self, map: &PreparedMap, at: Point2<f64>, facing: Facing, scale: f64) -> Option<Slope> {
+    fn pull(
+        self,
+        map: &PreparedMap,
+        at: Point2<f64>,
+        facing: impl FnOnce() -> Facing,
+        scale: f64,
+    ) -> Option<Slope> {
         let (slope, there) = map.surroundings(at)?;
         if slope.value > FAR_SCALES * scale {
             return None;
@@ -77,11 +84,11 @@ impl Sides {
         if self == Self::Any {
             return Some(slope);
         }
-        let other = there.side.facing();
+        let (facing, other) = (facing(), there.side.facing());
         let is_known = |facing: Facing| facing.normal != Vector2::zeros();
-        let counts = there.state == State::Free
-            || !(is_known(facing) || is_known(other))
-            || facing.agreement(other) >= self.least_cosine();
+        let is_free = there.state == State::Free;
+        let is_unknown = !(is_known(facing) || is_known(other));
+        let counts = is_free || is_unknown || facing.agreement(other) >= self.least_cosine();
         let across = if self == Self::Facing && is_known(facing) {
             facing.normal * facing.normal.dot(&slope.gradient)
         } else {
@@ -116,20 +123,15 @@ pub(crate) fn follow(
     start_on_from_map: Se2,
     scales: &[f64],
 ) -> Se2 {
-    let mean = walls.iter().map(|wall| wall.at.coords).sum::<Vector2<f64>>();
-    let mean = Point2::from(mean / walls.len().max(1) as f64);
+    let mean = centroid(walls);
     let mut on_from_map = start_on_from_map;
     for &scale in scales {
         let centre = on_from_map * mean;
         let mut sums = Sums { scale_sq: scale * scale, ..Sums::default() };
         for &WallPoint { at, facing } in walls {
             let place = on_from_map * at;
-            if let Some(slope) = Sides::NotOpposite.pull(
-                on,
-                place,
-                facing.turned(|normal| on_from_map * normal),
-                scale,
-            ) {
+            let facing = || facing.turned(|normal| on_from_map * normal);
+            if let Some(slope) = Sides::NotOpposite.pull(on, place, facing, scale) {
                 sums.add(slope.value, slope.gradient, place - centre);
             }
         }
@@ -219,7 +221,7 @@ fn each_pull(
 ) {
     for &WallPoint { at, facing } in second.walls.iter().take(points.most) {
         let in_first = *first_from_second * at;
-        let facing = facing.turned(|normal| *first_from_second * normal);
+        let facing = || facing.turned(|normal| *first_from_second * normal);
         if let Some(slope) = points.sides.pull(first, in_first, facing, scale) {
             add(in_first, slope);
         }
@@ -227,7 +229,7 @@ fn each_pull(
     let second_from_first = first_from_second.inverse();
     for &WallPoint { at, facing } in first.walls.iter().take(points.most) {
         let in_second = second_from_first * at;
-        let facing = facing.turned(|normal| second_from_first * normal);
+        let facing = || facing.turned(|normal| second_from_first * normal);
         if let Some(slope) = points.sides.pull(second, in_second, facing, scale) {
             add(at, Slope { gradient: -(*first_from_second * slope.gradient), ..slope });
         }

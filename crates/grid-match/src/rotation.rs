@@ -41,23 +41,62 @@ pub(crate) fn by_spectrum(first: &Spectrum, second: &Spectrum, most: usize) -> V
     refined.flat_map(|theta| [wrap_angle(theta), wrap_angle(theta + PI)]).collect()
 }
 
+/// A rotation, and which are wanted of it and of the half turn more.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct TurnPair {
+    pub(crate) theta: f64,
+    pub(crate) wanted: [bool; 2],
+}
+
+/// The same rotations, those that half a turn parts together.
+pub(crate) fn by_half_turns(rotations: &[f64]) -> Vec<TurnPair> {
+    let mut turns: Vec<TurnPair> = Vec::new();
+    for &theta in rotations {
+        let opposite = |turn: &&mut TurnPair| wrap_angle(turn.theta + PI - theta).abs() < 1e-9;
+        match turns.iter_mut().find(opposite) {
+            Some(turn) => turn.wanted[1] = true,
+            None => turns.push(TurnPair { theta, wanted: [true, false] }),
+        }
+    }
+    turns
+}
+
 /// A whole turn in steps of 3°.
 pub(crate) fn sweep() -> Vec<f64> {
     (0..120).map(|step| wrap_angle(f64::from(step) * TAU / 120.0)).collect()
 }
 
-/// Rotations to both sides of each of `rotations`, out to `reach` by at most `step`, without these
-/// themselves.
-pub(crate) fn fan(rotations: &[f64], reach: f64, step: f64) -> Vec<f64> {
-    let steps = (reach / step).ceil().max(1.0);
-    let mut around = Vec::new();
-    for &theta in rotations {
-        let mut index = 1.0;
-        while index <= steps {
-            let offset = reach * index / steps;
-            around.extend([wrap_angle(theta - offset), wrap_angle(theta + offset)]);
-            index += 1.0;
+/// Rotations by `apart` to both sides of each of `rotations`, without these themselves.
+pub(crate) fn beside(rotations: &[f64], apart: f64) -> Vec<f64> {
+    rotations.iter().flat_map(|theta| [theta - apart, theta + apart]).map(wrap_angle).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{by_half_turns, sweep};
+    use ogm_core::wrap_angle;
+    use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
+    use std::f64::consts::PI;
+
+    proptest! {
+        #[test]
+        fn half_turns_share_and_no_rotation_is_lost(
+            rotations in proptest::collection::vec(-PI..PI, 0..6),
+        ) {
+            let halves = rotations.iter().map(|theta| wrap_angle(theta + PI));
+            let all: Vec<f64> = rotations.iter().copied().chain(halves).collect();
+            let turns = by_half_turns(&all);
+            prop_assert_eq!(turns.len(), rotations.len());
+            for (turn, theta) in turns.iter().zip(&rotations) {
+                prop_assert_eq!((turn.theta, turn.wanted), (*theta, [true, true]));
+            }
+            let alone = by_half_turns(&rotations);
+            prop_assert!(alone.iter().all(|turn| turn.wanted == [true, false]));
         }
     }
-    around
+
+    #[test]
+    fn a_whole_turn_takes_half_its_transforms() {
+        assert_eq!(by_half_turns(&sweep()).len(), 60);
+    }
 }

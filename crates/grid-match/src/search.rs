@@ -9,6 +9,7 @@ use crate::parallel::each;
 use crate::params::Effort;
 use crate::prepare::PreparedMap;
 use crate::refine::{Points, Sides, refine};
+use crate::relax::{MovedPatch, relax};
 use crate::rotation;
 use crate::translation::{Candidate, CoarsePair, distinct};
 use crate::wall_counts::Reach;
@@ -24,15 +25,25 @@ const FINE_SCALES: [f64; 5] = [0.2, 0.14, 0.1, 0.08, 0.08];
 const FINE_POINTS: usize = 1000;
 /// Wall points of each map in the score that is reported.
 const ALL_POINTS: usize = 3000;
+/// A pose whose score is so far below that of the best is not looked at any closer, nor listed; a
+/// closer look at the poses of real pairs raised no score by more than five.
+pub(crate) const OUT_OF_SIGHT: f64 = 12.0;
+/// Rotations by the two strongest peaks of the spectra, mostly those along and across the walls.
+const STRONGEST: usize = 4;
+/// How far to both sides of these, radians: 0.9°. Half of it moves a wall at the rim of the largest
+/// lattice by less than three coarse cells, and most walls by one.
+const BESIDE: f64 = 0.0157;
 /// Refined candidates closer than this are one, metres and radians.
 const SAME: (f64, f64) = (0.3, 0.04);
 
 /// A pose and all that is known about it.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Fit {
     pub(crate) first_from_second: Se2,
     pub(crate) evidence: Evidence,
     pub(crate) score: f64,
+    /// The parts of the second map on the first.
+    pub(crate) patches: Vec<MovedPatch>,
 }
 
 /// What a tier tries.
@@ -43,10 +54,10 @@ struct Tier {
 }
 
 impl Tier {
-    /// About what correlating, refining and evaluating cost beside each other: a rotation costs as
-    /// much as two survivors or 25 candidates.
+    /// About what correlating, refining and evaluating cost beside each other: a rotation and its
+    /// half turn cost as much as two survivors or 25 candidates.
     fn costs(&self) -> [f64; 3] {
-        let count = self.rotations.len().max(1);
+        let count = rotation::by_half_turns(&self.rotations).len().max(1);
         [count as f64, 0.04 * self.candidates as f64, 0.5 * self.survivors as f64]
     }
 }
@@ -58,6 +69,8 @@ pub(crate) struct Search<'a> {
     coarse: CoarsePair<'a>,
     bounds: Option<Bounds>,
     suggested: Vec<f64>,
+    /// So many of these, from the first on, are worth rotations to both sides of them.
+    closely: usize,
     pub(crate) work: Work,
     pub(crate) fits: Vec<Fit>,
 }
@@ -75,10 +88,14 @@ impl<'a> Search<'a> {
             suggested.retain(|&theta| bounds.allows_rotation(theta));
             suggested.extend(bounds.rotations());
         }
+        let mut closely = suggested.len();
         if suggested.is_empty() {
             suggested = rotation::sweep();
+            closely = suggested.len();
+        } else if bounds.is_none() {
+            closely = closely.min(STRONGEST);
         }
-        Self { first, second, coarse, bounds, suggested, work, fits: Vec::new() }
+        Self { first, second, coarse, bounds, suggested, closely, work, fits: Vec::new() }
     }
 
     /// About how much a tier costs beside the others.
@@ -114,11 +131,8 @@ impl<'a> Search<'a> {
                 Tier { rotations: self.suggested.clone(), candidates: 40, survivors: 8 }
             }
             Effort::Standard => {
-                let degree = 1.0_f64.to_radians();
-                let step = 1.5 * self.coarse.cell / self.coarse.radius();
-                let step = step.clamp(0.5 * degree, 2.0 * degree);
-                let rotations = rotation::fan(&self.suggested, 0.9 * degree, step);
-                Tier { rotations, candidates: 60, survivors: 10 }
+                let rotations = rotation::beside(&self.suggested[..self.closely], BESIDE);
+                Tier { rotations, candidates: 30, survivors: 5 }
             }
             Effort::Thorough => {
                 let mut rotations = rotation::sweep();
@@ -158,6 +172,11 @@ impl<'a> Search<'a> {
             },
         )?;
         refined.sort_by(|a, b| b.score.total_cmp(&a.score));
+        let is_inside = |candidate: &&Candidate| {
+            self.bounds.is_none_or(|bounds| bounds.contains(&candidate.first_from_second))
+        };
+        let best = refined.iter().find(is_inside).map_or(f64::NEG_INFINITY, |best| best.score);
+        refined.retain(|candidate| candidate.score > best - OUT_OF_SIGHT);
         Ok(distinct(refined, self.second.centre, SAME.0, SAME.1, most))
     }
 
@@ -209,11 +228,26 @@ pub(crate) fn evaluate_in_full(
     Fit::of(first, second, first_from_second, ALL_POINTS)
 }
 
+/// Where the parts of the second map went, by all of its walls: how maps are bent shows in places,
+/// and of a large map some have too few of the points of a score.
+pub(crate) fn moved_in_full(
+    first: &PreparedMap,
+    second: &PreparedMap,
+    fit: &Fit,
+) -> Vec<MovedPatch> {
+    let walls = second.walls.len();
+    if walls <= ALL_POINTS {
+        return fit.patches.clone();
+    }
+    let reach = Reach::at(first.resolution().max(second.resolution()));
+    relax(second, first, &fit.first_from_second, reach, walls).patches
+}
+
 impl Fit {
     /// On at most `most` wall points of each map.
     fn of(first: &PreparedMap, second: &PreparedMap, first_from_second: Se2, most: usize) -> Self {
         let reach = Reach::at(first.resolution().max(second.resolution()));
-        let evidence = evaluate(first, second, &first_from_second, reach, most);
-        Self { first_from_second, evidence, score: evidence.score() }
+        let (evidence, patches) = evaluate(first, second, &first_from_second, reach, most);
+        Self { first_from_second, evidence, score: evidence.score(), patches }
     }
 }

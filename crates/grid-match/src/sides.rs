@@ -11,6 +11,8 @@ use crate::state::State;
 /// Width over which the free space at a wall is weighed, metres, and never less than these cells.
 const SIGMA_M: f64 = 0.08;
 const SIGMA_CELLS: f64 = 1.2;
+/// On cells below 6 mm less will do, for the window grows with the square.
+const MOST_SIGMA_CELLS: f64 = 13.0;
 /// Share of the slope at a wall seen from one side alone below which no side is meant.
 const FLAT: f64 = 0.2;
 /// A side is that of the nearest wall up to here, metres.
@@ -85,23 +87,23 @@ impl Side {
     }
 }
 
-/// The side of the nearest wall for every cell, near walls.
+/// Cells around every wall that are looked at, to all sides.
+pub(crate) fn margin(resolution: f64) -> usize {
+    window_radius(window_sigma(resolution)).max(ring_reach(resolution))
+}
+
+/// The side of the nearest wall for every cell, near walls; around all walls there must be at least
+/// the [`margin`].
 pub(crate) fn sides(state: &[State], lattice: &Lattice) -> Vec<Side> {
-    let window = Window::new(lattice.resolution);
+    let window = Window::new(lattice);
     let mut sides = vec![Side::UNKNOWN; state.len()];
+    let rings = rings(lattice);
     // Squared cells to the wall that a side was taken from.
-    let reach = floor_index((REACH_M / lattice.resolution).ceil());
-    let rings = rings(reach);
     let mut taken = vec![u8::MAX; state.len()];
     for (at, _) in state.iter().enumerate().filter(|&(_, &cell)| cell == State::Wall) {
-        let side = Side::of(window.facing(state, lattice, at));
-        let (column, row) = (at % lattice.width, at / lattice.width);
-        for &(dx, dy, distance) in &rings {
-            let (x, y) = (column.wrapping_add_signed(dx), row.wrapping_add_signed(dy));
-            if x >= lattice.width || y >= lattice.height {
-                continue;
-            }
-            let near = y * lattice.width + x;
+        let side = Side::of(window.facing(state, at));
+        for &(offset, distance) in &rings {
+            let near = at.wrapping_add_signed(offset);
             if distance < taken[near] {
                 taken[near] = distance;
                 sides[near] = side;
@@ -111,15 +113,33 @@ pub(crate) fn sides(state: &[State], lattice: &Lattice) -> Vec<Side> {
     sides
 }
 
-/// Offsets of up to `reach` cells, with a rank that grows with their length.
-fn rings(reach: usize) -> Vec<(isize, isize, u8)> {
-    let reach = isize::try_from(reach.min(15)).unwrap_or(15);
-    let mut offsets: Vec<(isize, isize, u8)> = (-reach..=reach)
-        .flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy, dx * dx + dy * dy)))
-        .filter(|&(_, _, square)| square <= reach * reach)
-        .map(|(dx, dy, square)| (dx, dy, u8::try_from(square).unwrap_or(u8::MAX - 1)))
+/// Cells.
+fn ring_reach(resolution: f64) -> usize {
+    floor_index((REACH_M / resolution).ceil()).min(15)
+}
+
+/// Cells.
+fn window_sigma(resolution: f64) -> f64 {
+    (SIGMA_M / resolution).clamp(SIGMA_CELLS, MOST_SIGMA_CELLS)
+}
+
+/// Cells.
+fn window_radius(sigma: f64) -> usize {
+    floor_index((2.5 * sigma).ceil())
+}
+
+/// Offsets of the cells within reach, with a rank that grows with their length.
+fn rings(lattice: &Lattice) -> Vec<(isize, u8)> {
+    let reach = ring_reach(lattice.resolution).cast_signed();
+    let mut offsets: Vec<(isize, u8)> = (-reach..=reach)
+        .flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy)))
+        .filter(|&(dx, dy)| dx * dx + dy * dy <= reach * reach)
+        .map(|(dx, dy)| {
+            let rank = u8::try_from(dx * dx + dy * dy).unwrap_or(u8::MAX - 1);
+            (dx + dy * lattice.width.cast_signed(), rank)
+        })
         .collect();
-    offsets.sort_by_key(|&(_, _, rank)| rank);
+    offsets.sort_by_key(|&(_, rank)| rank);
     offsets
 }
 
@@ -133,8 +153,8 @@ struct Window {
 
 /// One cell of a window.
 struct Weight {
-    column: isize,
-    row: isize,
+    /// From the middle, in the order of the cells of the map.
+    offset: isize,
     /// The weights sum to one.
     value: f64,
     /// Offset of the cell, times its weight.
@@ -144,43 +164,38 @@ struct Weight {
 }
 
 impl Window {
-    fn new(resolution: f64) -> Self {
-        let sigma = (SIGMA_M / resolution).max(SIGMA_CELLS);
-        #[expect(clippy::cast_possible_truncation, reason = "some cells")]
-        let radius = (2.5 * sigma).ceil() as isize;
+    fn new(lattice: &Lattice) -> Self {
+        let sigma = window_sigma(lattice.resolution);
+        let radius = window_radius(sigma).cast_signed();
         let weight =
             |dx: isize, dy: isize| (-0.5 * ((dx * dx + dy * dy) as f64) / (sigma * sigma)).exp();
         let cells = (-radius..=radius).flat_map(|dy| (-radius..=radius).map(move |dx| (dx, dy)));
         let total: f64 = cells.clone().map(|(dx, dy)| weight(dx, dy)).sum();
+        let hidden: f64 = (-radius..=radius).map(|dy| weight(0, dy) / total).sum();
         let weights: Vec<Weight> = cells
-            .map(|(column, row)| {
-                let value = weight(column, row) / total;
-                let offset = Vector2::new(column as f64, row as f64);
-                let spread = offset * offset.transpose() * value;
-                Weight { column, row, value, pull: offset * value, spread }
+            .map(|(dx, dy)| {
+                let value = weight(dx, dy) / total;
+                let offset = Vector2::new(dx as f64, dy as f64);
+                Weight {
+                    offset: dx + dy * lattice.width.cast_signed(),
+                    value,
+                    pull: offset * value,
+                    spread: offset * offset.transpose() * value,
+                }
             })
             .collect();
-        let of_column = weights.iter().filter(|weight| weight.column == 0);
-        let hidden: f64 = of_column.map(|weight| weight.value).sum();
         let one = 0.5 * (1.0 - hidden);
         let open_share = 0.5 * (one + 1.0 - hidden);
         Self { weights, sigma, open_share }
     }
 
     /// Into which free space the wall at a cell faces.
-    fn facing(&self, state: &[State], lattice: &Lattice, at: usize) -> Facing {
-        let (column, row) = (at % lattice.width, at / lattice.width);
+    fn facing(&self, state: &[State], at: usize) -> Facing {
         let mut free = 0.0;
         let mut pull = Vector2::zeros();
         let mut spread = Matrix2::zeros();
         for weight in &self.weights {
-            let x = column.wrapping_add_signed(weight.column);
-            let y = row.wrapping_add_signed(weight.row);
-            // What would lie left of or below the map wraps to far beyond it.
-            if x >= lattice.width || y >= lattice.height {
-                continue;
-            }
-            match state[y * lattice.width + x] {
+            match state[at.wrapping_add_signed(weight.offset)] {
                 State::Free => {
                     free += weight.value;
                     pull += weight.pull;
@@ -204,6 +219,38 @@ impl Window {
             Facing { normal: pull.normalize(), is_open_behind: false }
         } else {
             Facing::UNKNOWN
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{margin, sides};
+    use crate::lattice::Lattice;
+    use crate::state::State;
+    use nalgebra::Vector2;
+    use proptest::prelude::{prop_assert, proptest};
+
+    proptest! {
+        #[test]
+        fn a_wall_faces_the_side_from_which_it_was_seen_on_cells_of_any_size(power in -4.0_f64..3.0) {
+            let resolution = 10.0_f64.powf(power);
+            let around = margin(resolution) + 1;
+            let size = 2 * around + 1;
+            // A wall from below to above, free on its right up to the edge.
+            let state: Vec<State> = (0..size * size)
+                .map(|at| match (at % size).cmp(&around) {
+                    std::cmp::Ordering::Less => State::Unknown,
+                    std::cmp::Ordering::Equal if (around..size - around).contains(&(at / size)) => {
+                        State::Wall
+                    }
+                    _ => State::Free,
+                })
+                .collect();
+            let lattice = Lattice::new(size, size, resolution);
+            let facing = sides(&state, &lattice)[around * size + around].facing();
+            prop_assert!(!facing.is_open_behind, "{facing:?}");
+            prop_assert!(facing.normal.dot(&Vector2::x()) > 0.99, "{facing:?}");
         }
     }
 }

@@ -7,6 +7,7 @@ use nalgebra::{Point2, Vector2};
 use crate::lattice::floor_index;
 use crate::prepare::PreparedMap;
 use crate::state::State;
+use crate::surroundings::Distance;
 
 /// Places are looked for this far apart, metres.
 const GRID_M: f64 = 0.25;
@@ -47,14 +48,14 @@ impl PreparedMap {
         let (columns, rows) = (self.lattice.width / step, self.lattice.height / step);
         let clearance = |column: usize, row: usize| {
             let cell = self.cells[row * step * self.lattice.width + column * step];
-            if cell.state == State::Free { cell.distance } else { 0.0 }
+            if cell.state == State::Free { cell.distance } else { Distance::ZERO }
         };
         let reach = floor_index((APART_M / (step as f64 * self.lattice.resolution)).round()).max(1);
-        let mut places: Vec<(f32, Point2<f64>)> = Vec::new();
+        let mut places: Vec<(Distance, Point2<f64>)> = Vec::new();
         for row in 0..rows {
             for column in 0..columns {
                 let own = clearance(column, row);
-                if f64::from(own) < LEAST_CLEARANCE_M {
+                if own.metres() < LEAST_CLEARANCE_M {
                     continue;
                 }
                 let around =
@@ -73,7 +74,7 @@ impl PreparedMap {
                 }
             }
         }
-        places.sort_by(|a, b| b.0.total_cmp(&a.0));
+        places.sort_by_key(|&(clearance, _)| std::cmp::Reverse(clearance));
         places.truncate(MOST_PLACES);
         places.into_iter().map(|(_, at)| at).collect()
     }
@@ -108,7 +109,7 @@ impl PreparedMap {
                 break;
             }
             // No wall is nearer, but the unknown may be.
-            far += f64::from(here.distance).min(4.0 * cell).max(cell);
+            far += here.distance.metres().min(4.0 * cell).max(cell);
         }
         far.min(REACH_M)
     }

@@ -48,6 +48,7 @@ fn blocks(walls: &[WallPoint]) -> Vec<Vec<WallPoint>> {
 }
 
 /// Σ_ρ HT(θ, ρ)² for every θ.
+#[expect(clippy::cast_possible_truncation, reason = "places in bins, of single precision")]
 fn power(points: &[WallPoint], bin: f64) -> Vec<f64> {
     if points.is_empty() {
         return vec![0.0; ANGLES];
@@ -55,43 +56,58 @@ fn power(points: &[WallPoint], bin: f64) -> Vec<f64> {
     let mean = points.iter().map(|wall| wall.at.coords).sum::<nalgebra::Vector2<f64>>()
         / points.len() as f64;
     let reach = points.iter().map(|wall| (wall.at.coords - mean).norm()).fold(0.0, f64::max);
-    let offsets: Vec<[f64; 2]> = points
+    let middle = reach / bin + 1.0;
+    let offsets: Vec<[f32; 2]> = points
         .iter()
         .map(|wall| (wall.at.coords - mean) / bin)
-        .map(|offset| [offset.x, offset.y])
+        .map(|offset| [offset.x as f32, offset.y as f32])
         .collect();
-    let middle = reach / bin + 1.0;
-    let mut votes = vec![0.0_f64; floor_index(2.0 * middle) + 3];
+    let mut bins = vec![(0_u32, 0.0_f32); offsets.len()];
+    // What falls to a bin and to the one above, side by side.
+    let mut votes = vec![[0.0_f32; 2]; floor_index(2.0 * middle) + 2];
+    let last = i32::try_from(votes.len() - 1).unwrap_or(i32::MAX);
     (0..ANGLES)
         .map(|index| {
             let (sin, cos) = (index as f64 * PI / ANGLES as f64).sin_cos();
-            votes.fill(0.0);
-            for [x, y] in &offsets {
+            let (sin, cos, middle) = (sin as f32, cos as f32, middle as f32);
+            // Apart from the votes, for the places of several points are found at once.
+            for (bin, [x, y]) in bins.iter_mut().zip(&offsets) {
                 let rho = x * cos + y * sin + middle;
-                let at = floor_index(rho);
-                let upper = rho - at as f64;
-                votes[at] += 1.0 - upper;
-                votes[at + 1] += upper;
+                let lower = (rho as i32).clamp(0, last);
+                *bin = (lower.cast_unsigned(), rho - lower as f32);
             }
-            votes.iter().map(|vote| vote * vote).sum()
+            votes.fill([0.0; 2]);
+            for &(lower, upper) in &bins {
+                let [low, high] = &mut votes[lower as usize];
+                *low += 1.0 - upper;
+                *high += upper;
+            }
+            let mut from_below = 0.0;
+            let squares = votes.iter().map(|&[low, high]| {
+                let vote = low + std::mem::replace(&mut from_below, high);
+                f64::from(vote * vote)
+            });
+            squares.sum()
         })
         .collect()
 }
 
 /// The root of what stands above the smoothed running minimum.
 fn above_envelope(power: &[f64]) -> Vec<f64> {
-    let half = WINDOW / 2;
-    let window = |values: &[f64], at: usize| -> Vec<f64> {
-        (0..WINDOW).map(|offset| values[(at + ANGLES + offset - half) % ANGLES]).collect()
-    };
-    let lowest: Vec<f64> =
-        (0..ANGLES).map(|at| window(power, at).into_iter().fold(f64::INFINITY, f64::min)).collect();
-    (0..ANGLES)
-        .map(|at| {
-            let envelope = window(&lowest, at).iter().sum::<f64>() / WINDOW as f64;
-            (power[at] - envelope).max(0.0).sqrt()
-        })
-        .collect()
+    let lowest: Vec<f64> = around(power)
+        .windows(WINDOW)
+        .map(|window| window.iter().copied().fold(f64::INFINITY, f64::min))
+        .collect();
+    let envelope = around(&lowest);
+    let envelope = envelope.windows(WINDOW).map(|window| window.iter().sum::<f64>());
+    let above = power.iter().zip(envelope).map(|(power, sum)| power - sum / WINDOW as f64);
+    above.map(|above| above.max(0.0).sqrt()).collect()
+}
+
+/// Values of all angles, and so many more to both sides that each has a window around.
+fn around(values: &[f64]) -> Vec<f64> {
+    let turn = values.iter().copied().cycle();
+    turn.skip(ANGLES - WINDOW / 2).take(ANGLES + WINDOW - 1).collect()
 }
 
 fn normalised(values: &[f64]) -> Spectrum {

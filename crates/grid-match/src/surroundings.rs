@@ -6,14 +6,41 @@ use crate::lattice::{Lattice, Slope};
 use crate::sides::Side;
 use crate::state::State;
 
+/// Distances are cut off here, metres: twice what the widest refinement still weighs.
+pub(crate) const FARTHEST_M: f64 = 2.0;
+/// Distances are kept in steps of 0.03 mm, so that a cell takes four bytes.
+const STEP_M: f64 = FARTHEST_M / u16::MAX as f64;
+
+/// How far the nearest wall is, cut off.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Distance(u16);
+
 /// What a map says of a cell and of the wall next to it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Surroundings {
-    /// Metres to the nearest wall, cut off.
-    pub(crate) distance: f32,
+    pub(crate) distance: Distance,
     /// From which side the nearest wall was seen, near walls.
     pub(crate) side: Side,
     pub(crate) state: State,
+}
+
+impl Distance {
+    pub(crate) const ZERO: Self = Self(0);
+    pub(crate) const FARTHEST: Self = Self(u16::MAX);
+
+    #[expect(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "not negative, and what is too far for the steps is cut off"
+    )]
+    pub(crate) fn of_metres(metres: f32) -> Self {
+        Self((metres * (1.0 / STEP_M) as f32 + 0.5) as u16)
+    }
+
+    #[inline]
+    pub(crate) fn metres(self) -> f64 {
+        f64::from(self.0) * STEP_M
+    }
 }
 
 /// How far the nearest wall is from `point` and how that changes, and what else is said there;
@@ -25,6 +52,6 @@ pub(crate) fn surroundings(
     point: Point2<f64>,
 ) -> Option<(Slope, Surroundings)> {
     let corners = lattice.corners(point)?;
-    let slope = corners.slope(|cell| f64::from(cells[cell].distance));
+    let slope = corners.slope(|cell| cells[cell].distance.metres());
     Some((slope, cells[corners.nearest()]))
 }

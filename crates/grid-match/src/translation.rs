@@ -1,5 +1,7 @@
 //! Candidate poses: every translation at each of some rotations.
 
+use std::f64::consts::PI;
+
 use nalgebra::{Point2, Vector2};
 use ogm_core::{Cancelled, Progress, Se2, Steps, wrap_angle};
 
@@ -9,6 +11,7 @@ use crate::correlation_planes::{CorrelationPlanes, FreeShare, Side, turned_box, 
 use crate::lattice::floor_index;
 use crate::parallel::each;
 use crate::prepare::PreparedMap;
+use crate::rotation;
 use crate::work::Work;
 
 /// Peaks kept at one rotation.
@@ -32,6 +35,15 @@ pub(crate) struct CoarsePair<'a> {
     pub(crate) cell: f64,
     first_planes: CorrelationPlanes,
     second_free: FreeShare,
+}
+
+/// The second map turned, on the lattice of a correlation.
+struct Placed {
+    theta: f64,
+    /// Where the corner of its cell (0, 0) lies, turned.
+    origin: Vector2<f64>,
+    /// Shifts of fewer columns and rows are to the right and up, others to the left and down.
+    above: [usize; 2],
 }
 
 impl<'a> CoarsePair<'a> {
@@ -64,17 +76,29 @@ impl<'a> CoarsePair<'a> {
         }
         let overlap = floor_index(LEAST_OVERLAP_M / self.cell);
         let correlator = Correlator::new(&self.first_planes, size, room, overlap);
-        let allowed = rotations.iter().take_while(|_| work.spend_transform(correlator.cells()));
-        let rotations = &rotations[..allowed.count()];
-        let done = Steps::new(progress, rotations.len());
+        let turns = rotation::by_half_turns(rotations);
+        let allowed = turns.iter().take_while(|_| work.spend_transform(correlator.cells()));
+        let turns = &turns[..allowed.count()];
+        let done = Steps::new(progress, turns.len());
         let peaks = each(
-            rotations,
+            turns,
             || correlator.workspace(),
-            |space, &theta| {
+            |space, turn| {
                 let (map, free) = (self.second, &self.second_free);
-                let turned = CorrelationPlanes::turned(map, free, theta, Side::Second);
-                let surface = correlator.correlate(&turned, space);
-                let peaks = self.peaks(&surface, &turned, theta, bounds);
+                let turned = CorrelationPlanes::turned(map, free, turn.theta, Side::Second);
+                let [plain, half] = correlator.correlate(&turned, space);
+                let mut peaks = Vec::new();
+                if turn.wanted[0] {
+                    let first = [self.first_planes.width, self.first_planes.height];
+                    let placed = Placed { theta: turn.theta, origin: turned.origin, above: first };
+                    peaks = self.peaks(&plain, &placed, bounds);
+                }
+                if turn.wanted[1] {
+                    let origin = -turned.origin - Vector2::repeat(self.cell);
+                    let theta = wrap_angle(turn.theta + PI);
+                    let placed = Placed { theta, origin, above: [half.columns, half.rows] };
+                    peaks.extend(self.peaks(&half, &placed, bounds));
+                }
                 done.step().map(|()| peaks)
             },
         )?;
@@ -86,42 +110,30 @@ impl<'a> CoarsePair<'a> {
     fn peaks(
         &self,
         surface: &Surface<'_>,
-        turned: &CorrelationPlanes,
-        theta: f64,
+        placed: &Placed,
         bounds: Option<&Bounds>,
     ) -> Vec<Candidate> {
-        let shift = |index: usize, first: usize, length: usize| {
-            if index < first { index as f64 } else { index as f64 - length as f64 }
+        let shift = |index: usize, above: usize, length: usize| {
+            if index < above { index as f64 } else { index as f64 - length as f64 }
         };
-        let mut peaks: Vec<Candidate> = surface
-            .maxima(0.0)
-            .into_iter()
-            .map(|(column, row, score)| {
-                let cells = Vector2::new(
-                    shift(column, self.first_planes.width, surface.columns),
-                    shift(row, self.first_planes.height, surface.rows),
-                );
-                let translation = cells * self.cell + self.first_planes.origin - turned.origin;
-                let first_from_second = Se2::new(translation.x, translation.y, theta);
-                Candidate { first_from_second, score: f64::from(score) }
-            })
-            .filter(|peak| {
-                bounds.is_none_or(|bounds| bounds.near(&peak.first_from_second, self.cell))
-            })
-            .collect();
-        peaks.sort_by(|a, b| b.score.total_cmp(&a.score));
-        peaks.truncate(PEAKS);
+        let first_from_second = |column: usize, row: usize| {
+            let cells = Vector2::new(
+                shift(column, placed.above[0], surface.columns),
+                shift(row, placed.above[1], surface.rows),
+            );
+            let translation = cells * self.cell + self.first_planes.origin - placed.origin;
+            Se2::new(translation.x, translation.y, placed.theta)
+        };
+        let is_allowed = |column: usize, row: usize| {
+            bounds.is_none_or(|bounds| bounds.near(&first_from_second(column, row), self.cell))
+        };
+        let peaks = surface.maxima(PEAKS, is_allowed).into_iter();
         peaks
-    }
-
-    /// Radius of the second map about its centre, metres.
-    pub(crate) fn radius(&self) -> f64 {
-        let centre = self.second.centre;
-        self.second
-            .samples
-            .iter()
-            .map(|sample| (sample.at - centre).norm())
-            .fold(self.cell, f64::max)
+            .map(|(column, row, score)| Candidate {
+                first_from_second: first_from_second(column, row),
+                score: f64::from(score),
+            })
+            .collect()
     }
 }
 
@@ -171,4 +183,56 @@ fn coarse_cell(first: &PreparedMap, second: &PreparedMap) -> f64 {
     let largest = extents.iter().map(|extent| extent.max()).fold(0.0, f64::max);
     let resolution = first.resolution().max(second.resolution());
     (smallest / 60.0).clamp(0.06, 0.2).max(1.5 * resolution).max(largest / 450.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::CoarsePair;
+    use crate::prepare::PreparedMap;
+    use crate::work::Work;
+    use nalgebra::Vector2;
+    use ogm_core::{ClassThresholds, Grid, GridFrame, Occupancy, OccupancyGrid, Se2};
+    use std::f64::consts::PI;
+
+    /// A part of a flat of 9 × 7 m, in a frame of which it does not matter where it begins.
+    fn part([left, bottom]: [usize; 2], [width, height]: [usize; 2]) -> PreparedMap {
+        let is_wall = |column: usize, row: usize| {
+            let is_outer = matches!(column, 0 | 89) || matches!(row, 0 | 69);
+            let is_inner = column == 35 && row < 50 || row == 30 && column > 50;
+            is_outer || is_inner || column == 62 && row > 52 || row == 50 && column < 20
+        };
+        let cells = (0..width * height).map(|at| {
+            let wall = is_wall(left + at % width, bottom + at / width);
+            if wall { Occupancy::OCCUPIED } else { Occupancy::FREE }
+        });
+        let cells = Grid::new(width, height, cells.collect()).unwrap();
+        let corner = Se2::new(0.1 * left as f64, 0.1 * bottom as f64, 0.0);
+        let map = OccupancyGrid::new(GridFrame::new(0.1, corner).unwrap(), cells);
+        PreparedMap::new(&map, &ClassThresholds::default(), &()).unwrap()
+    }
+
+    #[test]
+    fn a_rotation_finds_the_same_place_alone_and_with_its_half_turn() {
+        let first = part([0, 0], [90, 70]);
+        // One answer is as good as the coarse cells, their mean is better.
+        let off = |rotations: &[f64]| {
+            let off = (0..10).map(|step| {
+                let second = part([8 + step, 5 + step], [70, 50]);
+                let pair = CoarsePair::new(&first, &second);
+                let mut work = Work::new(None);
+                let found = pair.candidates(rotations, 1, None, &mut work, &()).unwrap();
+                let found = found[0].first_from_second;
+                let truth = first.map_from_local.inverse() * second.map_from_local;
+                assert!(found.theta().abs() < 1e-9);
+                (found * second.centre - truth * second.centre) / pair.cell
+            });
+            off.sum::<Vector2<f64>>() / 10.0
+        };
+        let alone = off(&[0.0]);
+        assert!(alone.amax() < 0.7, "{alone}");
+        for rotations in [[-PI, 0.0], [PI, 0.0]] {
+            let with_half = off(&rotations);
+            assert!((with_half - alone).amax() < 0.4, "{alone} {with_half}");
+        }
+    }
 }

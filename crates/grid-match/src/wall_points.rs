@@ -1,7 +1,5 @@
 //! Points on walls, evenly spread, each with the side from which it was seen.
 
-use std::ops::Range;
-
 use nalgebra::{Point2, Vector2};
 
 use crate::lattice::{Lattice, floor_index};
@@ -34,25 +32,24 @@ impl Walls<'_> {
     pub(crate) fn points(&self, spacing: f64) -> Vec<WallPoint> {
         let lattice = self.lattice;
         let columns = floor_index(lattice.width as f64 * lattice.resolution / spacing) + 1;
-        let rows = floor_index(lattice.height as f64 * lattice.resolution / spacing) + 1;
-        let mut points: Vec<(u64, WallPoint)> = Vec::new();
-        // One row of squares at a time: all of them would take more memory than the map.
-        let mut sums = vec![Sum::default(); columns];
-        for row in 0..rows {
-            sums.fill(Sum::default());
-            for at in self.around(row, spacing) {
-                if self.state[at] != State::Wall {
-                    continue;
+        let cells = self.state.iter().enumerate().filter(|&(_, &state)| state == State::Wall);
+        let mut walls: Vec<(u64, usize)> = cells
+            .map(|(at, _)| {
+                let square = self.place(at) / spacing;
+                ((floor_index(square.y) * columns + floor_index(square.x)) as u64, at)
+            })
+            .collect();
+        walls.sort_unstable();
+        let squares = walls.chunk_by(|a, b| a.0 == b.0);
+        let mut points: Vec<(u64, WallPoint)> = squares
+            .map(|cells| {
+                let mut sum = Sum::default();
+                for &(_, at) in cells {
+                    sum.add(self.place(at), self.sides[at].facing());
                 }
-                let place = self.place(at);
-                if floor_index(place.y / spacing) == row {
-                    sums[floor_index(place.x / spacing)].add(place, self.sides[at].facing());
-                }
-            }
-            let filled = (0_u64..).zip(&sums).filter(|(_, sum)| sum.cells > 0);
-            let before = (row * columns) as u64;
-            points.extend(filled.map(|(column, sum)| (before + column, sum.point())));
-        }
+                (cells[0].0, sum.point())
+            })
+            .collect();
         points.sort_unstable_by_key(|&(index, _)| scatter(index));
         let count = points.len();
         let mut start = 0;
@@ -61,15 +58,6 @@ impl Walls<'_> {
             start = end;
         }
         points.into_iter().map(|(_, point)| point).collect()
-    }
-
-    /// The cells that may have wall in a row of squares.
-    fn around(&self, row: usize, spacing: f64) -> Range<usize> {
-        let lattice = self.lattice;
-        let cells = |along: f64| floor_index(along * spacing / lattice.resolution);
-        let low = cells(row as f64).saturating_sub(1);
-        let high = (cells(row as f64 + 1.0) + 2).min(lattice.height);
-        low * lattice.width..high * lattice.width
     }
 
     fn place(&self, at: usize) -> Point2<f64> {

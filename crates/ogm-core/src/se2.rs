@@ -169,6 +169,7 @@ fn unsigned_zero(value: f64, digits: usize) -> f64 {
 impl Mul for Se2 {
     type Output = Self;
 
+    #[inline]
     fn mul(self, right: Self) -> Self {
         Self(self.0 * right.0)
     }
@@ -177,6 +178,7 @@ impl Mul for Se2 {
 impl Mul<Point2<f64>> for Se2 {
     type Output = Point2<f64>;
 
+    #[inline]
     fn mul(self, point: Point2<f64>) -> Point2<f64> {
         self.0 * point
     }
@@ -186,6 +188,7 @@ impl Mul<Point2<f64>> for Se2 {
 impl Mul<Vector2<f64>> for Se2 {
     type Output = Vector2<f64>;
 
+    #[inline]
     fn mul(self, vector: Vector2<f64>) -> Vector2<f64> {
         self.0 * vector
     }

@@ -87,7 +87,7 @@ fn search(
         return Ok(MatchReport { hypotheses: Vec::new(), outcome, work: 0, exhausted: false });
     }
     // One order for both directions, so that swapping the maps inverts the answer exactly.
-    let swapped = order(target, source) == Ordering::Less;
+    let swapped = target.order(source) == Ordering::Less;
     let (first, second) = if swapped { (source, target) } else { (target, source) };
     let bounds = params.prior.map(|prior| Bounds::new(&prior, first, second, swapped));
     let beliefs = Beliefs {
@@ -180,7 +180,7 @@ pub fn score_pose(
     target_from_source.check_finite()?;
     let target_local_from_source_local =
         target.map_from_local.inverse() * *target_from_source * source.map_from_local;
-    let fit = if order(target, source) == Ordering::Less {
+    let fit = if target.order(source) == Ordering::Less {
         evaluate_in_full(source, target, target_local_from_source_local.inverse())
     } else {
         evaluate_in_full(target, source, target_local_from_source_local)
@@ -193,19 +193,6 @@ fn too_little(map: &PreparedMap, params: &MatchParams) -> Option<Refusal> {
     let have = map.occupied_cells;
     let metres = |cells: usize| cells as f64 * map.resolution();
     (have < need).then(|| Refusal::TooLittleWall { have_m: metres(have), need_m: metres(need) })
-}
-
-/// By what does not depend on origin, orientation or resolution, so that it rarely changes with
-/// these; then by anything, so that only equal maps are equal.
-fn order(a: &PreparedMap, b: &PreparedMap) -> Ordering {
-    let shape = |map: &PreparedMap| (map.lattice.width, map.lattice.height);
-    a.known_area()
-        .total_cmp(&b.known_area())
-        .then(a.wall_length().total_cmp(&b.wall_length()))
-        .then(shape(a).cmp(&shape(b)))
-        .then_with(|| {
-            a.cells.iter().map(|cell| cell.state).cmp(b.cells.iter().map(|cell| cell.state))
-        })
 }
 
 fn hypothesis(

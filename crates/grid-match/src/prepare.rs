@@ -1,5 +1,7 @@
 //! What is computed of one map alone, whatever it is matched with.
 
+use std::cmp::Ordering;
+
 use nalgebra::{Point2, Vector2};
 use ogm_core::{Cancelled, ClassThresholds, OccupancyGrid, Progress, Se2};
 
@@ -119,6 +121,22 @@ impl PreparedMap {
     #[must_use]
     pub fn known_area(&self) -> f64 {
         self.samples.len() as f64 * self.sample_area
+    }
+
+    /// An order of maps by what they hold, equal only where all cells are: for whoever must take
+    /// several one after the other and get the same answer however they came.
+    ///
+    /// It rests on what does not depend on origin, orientation or resolution, so that it rarely
+    /// changes with these.
+    #[must_use]
+    pub fn order(&self, other: &Self) -> Ordering {
+        let shape = |map: &Self| (map.lattice.width, map.lattice.height);
+        let [states, others] = [self, other].map(|map| map.cells.iter().map(|cell| cell.state));
+        self.known_area()
+            .total_cmp(&other.known_area())
+            .then(self.wall_length().total_cmp(&other.wall_length()))
+            .then(shape(self).cmp(&shape(other)))
+            .then_with(|| states.cmp(others))
     }
 }
 

@@ -11,8 +11,16 @@ use ogm_sim::{FloorKind, labelled_team};
 
 /// Maps of small floors of three kinds, and one of another floor among each.
 fn teams() -> impl Iterator<Item = Vec<OccupancyGrid>> {
-    let floors = [(FloorKind::Flat, 31), (FloorKind::Flat, 32), (FloorKind::Clutter, 33)];
-    floors.into_iter().map(|(kind, seed)| labelled_team(kind, 4, true, seed).unwrap().maps)
+    drawn([(FloorKind::Flat, 31), (FloorKind::Flat, 32), (FloorKind::Clutter, 33)])
+}
+
+/// Teams with a join that barely comes about, so that the least change of a number undoes it.
+fn teams_on_the_edge() -> impl Iterator<Item = Vec<OccupancyGrid>> {
+    drawn([(FloorKind::Flat, 707), (FloorKind::Clutter, 706), (FloorKind::Hall, 708)])
+}
+
+fn drawn(teams: [(FloorKind, u64); 3]) -> impl Iterator<Item = Vec<OccupancyGrid>> {
+    teams.into_iter().map(|(kind, seed)| labelled_team(kind, 4, true, seed).unwrap().maps)
 }
 
 fn merged(maps: &[OccupancyGrid], params: &TeamParams) -> TeamReport {
@@ -90,26 +98,18 @@ fn tenth_of_a_cell(maps: &[OccupancyGrid]) -> f64 {
     0.1 * maps.iter().map(|map| map.frame().resolution()).fold(f64::INFINITY, f64::min)
 }
 
-/// `check` of the report in the order given, that in another order, the maps, and the place of each
-/// there.
-fn in_other_orders(check: impl Fn(&TeamReport, &TeamReport, &[OccupancyGrid], &[usize])) {
-    for maps in teams() {
+#[test]
+fn the_order_of_the_maps_moves_nothing() {
+    for maps in teams().chain(teams_on_the_edge()) {
         let wanted = plain(&maps);
         for order in [[4, 3, 2, 1, 0], [2, 0, 4, 1, 3]] {
             let shuffled: Vec<OccupancyGrid> = order.iter().map(|&map| maps[map].clone()).collect();
             let place = |map: usize| order.iter().position(|&other| other == map).unwrap();
-            let places: Vec<usize> = (0..maps.len()).map(place).collect();
-            let params = TeamParams { reference: places[0], ..TeamParams::default() };
-            check(&wanted, &merged(&shuffled, &params), &maps, &places);
+            let params = TeamParams { reference: place(0), ..TeamParams::default() };
+            let report = merged(&shuffled, &params);
+            assert_same(&wanted, &report, &maps, tenth_of_a_cell(&maps), place);
         }
     }
-}
-
-#[test]
-fn the_order_of_the_maps_moves_nothing() {
-    in_other_orders(|wanted, report, maps, places| {
-        assert_same(wanted, report, maps, tenth_of_a_cell(maps), |map| places[map]);
-    });
 }
 
 #[test]

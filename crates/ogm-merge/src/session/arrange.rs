@@ -75,8 +75,8 @@ impl Arranging<'_> {
             let (prepared, pairs) = (self.prepared, self.pairs);
             let evidences = Evidences { prepared, pairs, repeats: matching.repeats };
             let of = |poses: Vec<(usize, Se2)>| match &poses[..] {
-                [(map, _)] => Ok(Some(Part::alone(*map))),
-                _ => Part::of(poses, prepared, &matching.thresholds).map(Some),
+                [(map, _)] => Ok(Part::alone(*map)),
+                _ => Part::of(poses, prepared, &matching.thresholds),
             };
             let open = parts.into_iter().map(of).collect::<Result<_, MergeError>>()?;
             let is_open = |first: &Part, second: &Part| {
@@ -227,8 +227,8 @@ impl Arranging<'_> {
                 Some(target?.group_from_map.between(&source?.group_from_map))
             });
             let (Some(stand), Some(best)) = (stand, pair.proposals.first()) else { continue };
-            let centre = self.prepared[pair.source].centre();
-            if best.pose.probability >= 0.5 && agreeing(pair, &stand, centre) != Some(0) {
+            let agreeing = agreeing(pair, &stand, self.prepared);
+            if best.pose.probability >= 0.5 && agreeing != Some(0) {
                 return Ok(true);
             }
         }

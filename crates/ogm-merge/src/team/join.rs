@@ -19,12 +19,15 @@ use crate::MergeError;
 /// second witness: evidence is counted once, on the groups laid together, and every join is
 /// weighed anew after each other.
 pub(crate) fn join(
-    mut parts: Vec<Option<Part>>,
+    mut parts: Vec<Part>,
     evidences: &Evidences<'_>,
     matching: &MatchParams,
     is_open: &dyn Fn(&Part, &Part) -> bool,
     progress: &dyn Progress,
 ) -> Result<(Vec<Part>, Vec<Join>), MergeError> {
+    let first = |part: &Part| &evidences.prepared[part.members[0].0];
+    parts.sort_by(|a, b| first(a).order(first(b)));
+    let mut parts: Vec<Option<Part>> = parts.into_iter().map(Some).collect();
     let mut links: BTreeMap<(usize, usize), Link> = BTreeMap::new();
     let all = (0..parts.len()).flat_map(|a| (a + 1..parts.len()).map(move |b| (a, b)));
     let is_open = |&(a, b): &(usize, usize)| match (&parts[a], &parts[b]) {

@@ -39,9 +39,8 @@ const MATCHED: f64 = 0.8;
 /// for and against a join is counted once, on the maps of each group laid together, so that a map
 /// that no single other places may be placed by all of them, and one pair whose maps contradict
 /// each other in a join vetoes it. What cannot be placed stays apart. The joint poses are those of
-/// least squares over all pairs that agree. Copies do not change the answer, nor does the order of
-/// the maps as a rule; but groups are laid together in the frame of their first map, so that a join
-/// that only just comes about may depend on it.
+/// least squares over all pairs that agree. Neither copies nor the order of the maps change the
+/// answer.
 ///
 /// # Errors
 /// Input that cannot be meant, or a call that was cancelled; maps that do not hang together are
@@ -86,11 +85,11 @@ pub fn merge_team(
     let known: Vec<(usize, Se2)> = known.collect();
     let mut parts = Vec::with_capacity(originals.len());
     if known.len() > 1 {
-        parts.push(Some(Part::of(known.clone(), &prepared, thresholds)?));
+        parts.push(Part::of(known.clone(), &prepared, thresholds)?);
     }
     let is_known = |map: usize| known.len() > 1 && known.iter().any(|(known, _)| *known == map);
     let alone = originals.iter().copied().filter(|&map| !is_known(map));
-    parts.extend(alone.map(|map| Some(Part::alone(map))));
+    parts.extend(alone.map(Part::alone));
     let joining = Stage::new(progress, MATCHED, 1.0);
     let (parts, joins) = join(parts, &evidences, matching, &|_, _| true, &joining)?;
 
@@ -111,11 +110,10 @@ pub fn merge_team(
             .iter()
             .find_map(|component| Some(component.pose(target)?.between(&component.pose(source)?)));
         let found = matched.next_if(|(pair, _)| pair.maps() == (target, source));
-        let centre = prepared[source].centre();
         let hypothesis = found
             .as_ref()
             .zip(target_from_source)
-            .and_then(|((pair, _), pose)| agreeing(pair, &pose, centre));
+            .and_then(|((pair, _), pose)| agreeing(pair, &pose, &prepared));
         let report = found.and_then(|(_, report)| report);
         TeamPair { target, source, report, target_from_source, hypothesis }
     });

@@ -10,7 +10,8 @@ use crate::{FusionParams, FusionRule, MergeError};
 /// Maps that hang together.
 #[derive(Debug)]
 pub(crate) struct Part {
-    /// Every map and its pose, ascending; the frame is that of the first.
+    /// Every map and its pose, in the order of what the maps hold: what they say together does not
+    /// depend on how they are numbered. The frame is that of the first.
     pub(crate) members: Vec<(usize, Se2)>,
     /// All of them laid together; `None` for a map alone, which is as it is.
     composite: Option<PreparedMap>,
@@ -27,7 +28,7 @@ impl Part {
         prepared: &[PreparedMap],
         thresholds: &ClassThresholds,
     ) -> Result<Self, MergeError> {
-        members.sort_by_key(|(map, _)| *map);
+        members.sort_by(|(a, _), (b, _)| prepared[*a].order(&prepared[*b]));
         let first_from_part = members[0].1.inverse();
         for (_, part_from_map) in &mut members {
             *part_from_map = first_from_part * *part_from_map;
@@ -62,8 +63,11 @@ impl Part {
         self.members.len() == 1
     }
 
+    /// Which maps, ascending.
     pub(crate) fn maps(&self) -> Vec<usize> {
-        self.members.iter().map(|(map, _)| *map).collect()
+        let mut maps: Vec<usize> = self.members.iter().map(|(map, _)| *map).collect();
+        maps.sort_unstable();
+        maps
     }
 
     pub(crate) fn pose(&self, map: usize) -> Option<Se2> {

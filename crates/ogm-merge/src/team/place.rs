@@ -1,15 +1,15 @@
 //! Joint poses of maps that hang together, by all pairs that agree with how they were joined.
 
 use grid_match::PreparedMap;
-use nalgebra::{Matrix3, Point2};
+use nalgebra::{Matrix3, center};
 use ogm_core::{RelativePose, Se2, wrap_angle};
 use pose_graph2d::{Component, Edge, PoseGraph, SolveParams, solve};
 
 use super::pairs::Matched;
 use crate::MergeError;
 
-/// A pair agrees with how its maps were joined within this, metres at the middle of the source and
-/// radians: more than the drift of some maps in a row, and what makes another answer.
+/// A pair agrees with how its maps were joined within this, metres half-way between the middles of
+/// the maps and radians: more than the drift of some maps in a row, and what makes another answer.
 const AGREES: (f64, f64) = (0.75, 0.1);
 
 /// A map in its place; no covariance where no chain of pairs says one.
@@ -22,15 +22,17 @@ pub(crate) struct Place {
     pub(crate) bend_m: f64,
 }
 
-/// Which hypothesis of a pair agrees with a pose, `centre` being the middle of the source.
+/// Which hypothesis of a pair agrees with a pose.
 pub(crate) fn agreeing(
     pair: &Matched,
     target_from_source: &Se2,
-    centre: Point2<f64>,
+    prepared: &[PreparedMap],
 ) -> Option<usize> {
+    let [target, source] = [pair.target, pair.source].map(|map| prepared[map].centre());
+    let between = center(&source, &(target_from_source.inverse() * target));
     let apart = |found_target_from_source: &Se2| {
         let turn = wrap_angle(found_target_from_source.theta() - target_from_source.theta()).abs();
-        let apart = (*found_target_from_source * centre - *target_from_source * centre).norm();
+        let apart = (*found_target_from_source * between - *target_from_source * between).norm();
         (turn <= AGREES.1 && apart <= AGREES.0).then_some(apart)
     };
     let proposals = pair.proposals.iter().enumerate();
@@ -40,7 +42,7 @@ pub(crate) fn agreeing(
         .map(|(_, index)| index)
 }
 
-/// The poses of least squares of `members`, ascending, with their covariances, in the frame of the
+/// The poses of least squares of `members`, in their order, with their covariances, in the frame of the
 /// member `reference`.
 pub(crate) fn placed(
     members: &[(usize, Se2)],
@@ -55,17 +57,21 @@ pub(crate) fn placed(
     for pair in pairs {
         let Some((target, source)) = index(pair.target).zip(index(pair.source)) else { continue };
         let target_from_source = members[target].1.between(&members[source].1);
-        let centre = prepared[pair.source].centre();
-        if let Some(agreeing) = agreeing(pair, &target_from_source, centre) {
+        if let Some(agreeing) = agreeing(pair, &target_from_source, prepared) {
             let found = &pair.proposals[agreeing];
             for bend in [target, source] {
                 bends[bend] = bends[bend].max(found.bend_m);
             }
             pair_bends.push(found.bend_m);
             let pose = RelativePose { probability: 1.0, ..found.pose };
-            edges.push(Edge { target, source, hypotheses: vec![pose] });
+            edges.push(if target < source {
+                Edge { target, source, hypotheses: vec![pose] }
+            } else {
+                Edge { target: source, source: target, hypotheses: vec![pose.inverse()] }
+            });
         }
     }
+    edges.sort_by_key(|edge| (edge.target, edge.source));
     let reference = index(reference).unwrap_or(0);
     let loops = edges.len() as f64 / (members.len().max(2) - 1) as f64;
     let freedom = 3.0 * (edges.len() as f64 + 1.0 - members.len() as f64);

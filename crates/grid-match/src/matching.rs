@@ -28,8 +28,9 @@ use crate::work::Work;
 const MOST_HYPOTHESES: usize = 5;
 /// A pose is a rival of the best if it is at least so likely beside it, whatever its score.
 const RIVAL_SHARE: f64 = 0.2;
-/// A pose that is less likely is not polished: it is listed as the search left it.
-const WORTH_POLISHING: f64 = 0.05;
+/// A pose that is less likely is listed as the search left it: it is not polished, and its bend
+/// rests on the walls of its score.
+const WORTH_A_CLOSER_LOOK: f64 = 0.05;
 /// Share of the work after which both maps are prepared.
 const PREPARED: f64 = 0.2;
 /// Share of the work after which all poses are found, but not polished.
@@ -134,7 +135,7 @@ fn search(
         |(), (fit, probability)| {
             let start_first_from_second = fit.first_from_second;
             let mut first_from_second = start_first_from_second;
-            if *probability >= WORTH_POLISHING {
+            if *probability >= WORTH_A_CLOSER_LOOK {
                 first_from_second = polish(first, second, start_first_from_second);
             }
             // What is reported is what was polished, so it is what has to be weighed and bounded.
@@ -201,9 +202,11 @@ fn hypothesis(
     fit: &Fit,
     probability: f64,
 ) -> Hypothesis {
-    let Fit { first_from_second, evidence, score, .. } = *fit;
+    let Fit { first_from_second, evidence, score, ref patches } = *fit;
     let scale = first.resolution().max(second.resolution()).max(0.08);
-    let bend = bend(first, second, &first_from_second, &moved_in_full(first, second, fit));
+    let in_full =
+        (probability >= WORTH_A_CLOSER_LOOK).then(|| moved_in_full(first, second, fit)).flatten();
+    let bend = bend(first, second, &first_from_second, in_full.as_ref().unwrap_or(patches));
     let (covariance, weak_direction) = covariance(first, second, &first_from_second, scale, &bend);
     Hypothesis {
         pose: RelativePose {

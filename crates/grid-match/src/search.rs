@@ -229,18 +229,16 @@ pub(crate) fn evaluate_in_full(
 }
 
 /// Where the parts of the second map went, by all of its walls: how maps are bent shows in places,
-/// and of a large map some have too few of the points of a score.
+/// and of a large map some have too few of the points of a score. `None` of a map that has no more.
 pub(crate) fn moved_in_full(
     first: &PreparedMap,
     second: &PreparedMap,
     fit: &Fit,
-) -> Vec<MovedPatch> {
+) -> Option<Vec<MovedPatch>> {
     let walls = second.walls.len();
-    if walls <= ALL_POINTS {
-        return fit.patches.clone();
-    }
     let reach = Reach::at(first.resolution().max(second.resolution()));
-    relax(second, first, &fit.first_from_second, reach, walls).patches
+    let relaxed = || relax(second, first, &fit.first_from_second, reach, walls).patches;
+    (walls > ALL_POINTS).then(relaxed)
 }
 
 impl Fit {

@@ -8,7 +8,7 @@
 //! use grid_match::{MatchParams, match_maps};
 //! use ogm_core::{GridFrame, OccupancyGrid, Se2};
 //!
-//! // A flat of 9 × 6 m, 0.25 m a cell, drawn twice in frames of different origin.
+//! // A flat of 9 × 5 m, 0.25 m a cell, drawn twice in frames of different origin.
 //! let picture = "
 //!     ?####################################
 //!     ?#...........#......................#
@@ -31,21 +31,18 @@
 //!     ?#...#....................#.........#
 //!     ?####################################";
 //! let map = |x| OccupancyGrid::from_ascii(GridFrame::new(0.25, Se2::new(x, 0.0, 0.0))?, picture);
-//! let (target, source) = (map(0.0)?, map(40.0)?);
 //!
-//! let report = match_maps(&target, &source, &MatchParams::default(), &())?;
+//! let report = match_maps(&map(0.0)?, &map(40.0)?, &MatchParams::default(), &())?;
 //! let target_from_source = report.outcome.found().expect("one flat");
 //! assert!((target_from_source.x() + 40.0).abs() < 0.01);
-//! assert!(report.hypotheses[0].pose.probability > 0.9);
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
 //! How it works: Hough spectra of the walls suggest a few rotations; for each and its half turn,
-//! one complex Fourier transform scores every translation by walls on walls, walls in free space and
-//! free space on free space; the best candidates follow the distance fields of both maps by robust
-//! Gauss–Newton; what is left is scored in metres of wall, for and against. [`PreparedMap`] keeps
-//! what is computed of one map alone. The order of the two maps, their origins and the number of
-//! threads do not matter.
+//! one complex Fourier transform scores every translation by walls and free space on each other;
+//! the best candidates follow the distance fields of both maps by robust Gauss–Newton; what is left
+//! is scored in metres of wall, for and against. [`PreparedMap`] keeps what is computed of one map.
+//! The order of the two maps, their origins and the number of threads do not matter.
 
 mod bend;
 mod bounds;

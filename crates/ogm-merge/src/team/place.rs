@@ -42,8 +42,8 @@ pub(crate) fn agreeing(
         .map(|(_, index)| index)
 }
 
-/// The poses of least squares of `members`, in their order, with their covariances, in the frame of the
-/// member `reference`.
+/// The poses of least squares of `members`, in their order, with their covariances, in the frame of
+/// the member `reference`.
 pub(crate) fn placed(
     members: &[(usize, Se2)],
     pairs: &[Matched],

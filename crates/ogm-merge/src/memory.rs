@@ -49,7 +49,7 @@ pub fn fusing_bytes(largest: u64, refined: f64) -> u64 {
 
 /// Of one map while it is searched: what is known of each cell, on coarser cells from some size on.
 fn prepared_bytes(cells: u64) -> u64 {
-    const OF_A_CELL: u64 = 10;
+    const OF_A_CELL: u64 = 12;
     const OF_A_COARSER_CELL: u64 = 25;
     let mut kept = cells;
     while kept > MOST_FINE_CELLS {

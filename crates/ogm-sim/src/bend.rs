@@ -1,7 +1,6 @@
 //! What remains of drift after a loop is closed: a map that is bent, but in one piece.
 
 use nalgebra::{Point2, Vector2};
-use ogm_core::Se2;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::{PI, TAU};
@@ -11,9 +10,10 @@ const WAVES: usize = 3;
 /// Shortest and longest wave, metres: a loop of a corridor, a building.
 const WAVELENGTH: [f64; 2] = [15.0, 60.0];
 
-/// A smooth displacement of the plan.
+/// A smooth displacement of the poses that a robot believes in; its scans are displaced with them,
+/// each in one piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Bend {
+pub(crate) struct Bend {
     waves: [Wave; WAVES],
 }
 
@@ -43,15 +43,13 @@ impl Bend {
     }
 
     /// How far a place is displaced, along the axes of the plan, metres.
-    #[must_use]
-    pub fn shift(&self, at: Point2<f64>) -> Vector2<f64> {
+    pub(crate) fn shift(&self, at: Point2<f64>) -> Vector2<f64> {
         let waves = self.waves.iter();
         waves.map(|wave| wave.amplitude * (wave.number.dot(&at.coords) + wave.phase).sin()).sum()
     }
 
     /// How far the surroundings of a place are turned, radians: half the curl.
-    #[must_use]
-    pub fn turn(&self, at: Point2<f64>) -> f64 {
+    pub(crate) fn turn(&self, at: Point2<f64>) -> f64 {
         let waves = self.waves.iter();
         waves
             .map(|wave| {
@@ -62,41 +60,11 @@ impl Bend {
     }
 }
 
-/// Steps that undo a bend: each leaves as much of the error as the bend changes over its length.
-const UNDOING: usize = 12;
-
-/// Where every place of one bent map lies in another, exactly.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct PairBend {
-    /// How the target is bent, in the plan.
-    pub target: Bend,
-    /// And the source.
-    pub source: Bend,
-    /// The pose of the target's frame in the plan, were the map straight.
-    pub world_from_target: Se2,
-    /// And of the source's.
-    pub world_from_source: Se2,
-}
-
-impl PairBend {
-    /// Where the target shows what the source shows at `place`, each in its map frame.
-    #[must_use]
-    pub fn in_target(&self, place: Point2<f64>) -> Point2<f64> {
-        let displaced = self.world_from_source * place;
-        let mut at = displaced;
-        for _ in 0..UNDOING {
-            at = displaced - self.source.shift(at);
-        }
-        self.world_from_target.inverse() * (at + self.target.shift(at))
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{Bend, PairBend};
+    use super::Bend;
     use crate::draw::{Stream, generator};
     use nalgebra::{Point2, Vector2};
-    use ogm_core::Se2;
 
     #[test]
     fn bends_are_as_large_as_asked_for() {
@@ -123,19 +91,5 @@ mod tests {
         };
         let curl = slope(Vector2::x()).y - slope(Vector2::y()).x;
         assert!((bend.turn(at) - curl / 2.0).abs() < 1e-7, "{} {curl}", bend.turn(at));
-    }
-
-    #[test]
-    fn a_place_of_one_bent_map_is_found_in_the_other() {
-        let [target, source] =
-            [1, 2].map(|item| Bend::draw(0.5, &mut generator(9, Stream::Bend, item)));
-        let [world_from_target, world_from_source] =
-            [Se2::new(3.0, 1.0, 2.0), Se2::new(-4.0, 0.5, 0.3)];
-        let pair = PairBend { target, source, world_from_target, world_from_source };
-        let plan = Point2::new(11.0, 7.0);
-        let shown =
-            |world_from_map: Se2, bend: &Bend| world_from_map.inverse() * (plan + bend.shift(plan));
-        let found = pair.in_target(shown(world_from_source, &source));
-        assert!((found - shown(world_from_target, &target)).norm() < 1e-3, "{found}");
     }
 }

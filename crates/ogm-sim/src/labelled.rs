@@ -5,12 +5,12 @@ use ogm_core::{OccupancyGrid, RobotId};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
-use crate::bend::PairBend;
 use crate::conditions::{Conditions, direction};
 use crate::draw::{Stream, generator};
 use crate::explore::{Part, explore, free_space};
 use crate::navigate::FreeSpace;
 use crate::run::{bend, frame_at_start, random_heading};
+use crate::shown::PairBend;
 use crate::style::MapStyle;
 use crate::truth::{PairTruth, pair_truth};
 use crate::{
@@ -92,8 +92,7 @@ pub fn labelled_pair(
 }
 
 /// Draws a pair of overlapping maps as [`labelled_pair`] does, bent by `bends` (target, source;
-/// [`DriftParams::bend`](crate::DriftParams::bend)) and wrong by nothing else, so that
-/// [`LabelledPair::bend`] is exact.
+/// [`DriftParams::bend`](crate::DriftParams::bend)) and wrong by nothing else.
 ///
 /// # Errors
 /// A floor that robots cannot explore as asked for: another seed may do.
@@ -138,18 +137,9 @@ impl Visit<'_> {
         Ok([run(TARGET, rng)?, run(SOURCE, rng)?])
     }
 
-    fn bend(&self, [target, source]: &[RobotRun; 2]) -> PairBend {
-        PairBend {
-            target: bend(TARGET, &self.params[0]),
-            source: bend(SOURCE, &self.params[1]),
-            world_from_target: target.world_from_map,
-            world_from_source: source.world_from_map,
-        }
-    }
-
     fn truth(&self, maps: &[RobotRun; 2]) -> Result<Option<PairTruth>, SimError> {
-        let PairBend { target, source, .. } = self.bend(maps);
-        pair_truth(&maps[0], &maps[1], [&target, &source])
+        let bends = [(TARGET, 0), (SOURCE, 1)].map(|(robot, map)| bend(robot, &self.params[map]));
+        pair_truth(&maps[0], &maps[1], [&bends[0], &bends[1]])
     }
 }
 
@@ -192,7 +182,7 @@ fn overlapping(
         let overlap = truth.map_or(0.0, |truth| truth.overlap);
         let off = (overlap - wanted).abs();
         if best.as_ref().is_none_or(|(least, _)| off < *least) {
-            let bend = truth.map(|_| visit.bend(&maps));
+            let bend = truth.map(|_| PairBend::between(&maps[0], &maps[1]));
             best = Some((off, LabelledPair { bend, ..labelled(maps, truth, conditions) }));
         }
         if off < NEAR {

@@ -12,6 +12,7 @@ use crate::lidar::Lidar;
 use crate::mapping::{CellBox, Mapper};
 use crate::params::check_step;
 use crate::path::{headings, smooth};
+use crate::shown::Shown;
 use crate::tags::read_along;
 use crate::{FloorPlan, PairParams, SOURCE, SimError, TARGET};
 
@@ -34,6 +35,8 @@ pub struct RobotRun {
     pub world_from_map: Se2,
     /// Where it believes to have been, in its map frame; the truth if there is no drift.
     pub path: Vec<Point2<f64>>,
+    /// Where its map shows what it hit.
+    pub(crate) shown: Shown,
 }
 
 impl FloorPlan {
@@ -139,6 +142,7 @@ fn map_along_paths(
     let mut mapper = Mapper::new(&params.mapping, &believed, max_range)?;
     let mut lidar = Lidar::new(plan, &params.lidar);
     let mut readings = Vec::new();
+    let mut shown = Shown::default();
     for drive in &drives {
         let mut rng = generator(params.seed, Stream::Ranges, drive.robot.0.into());
         let mut compass = generator(params.seed, Stream::Compass, drive.robot.0.into());
@@ -151,6 +155,8 @@ fn map_along_paths(
             let map_from_robot = Se2::new(at.x, at.y, heading - world_from_map.theta() + error);
             lidar.scan(world_from_robot, &mut rng);
             mapper.add_scan(map_from_robot, lidar.beams(), lidar.ranges(), max_range);
+            let place_from_robot = map_from_world * world_from_robot;
+            shown.add_scan(place_from_robot, map_from_robot, lidar.beams(), lidar.ranges());
         }
         let true_path: Vec<_> = drive.path.iter().map(|&p| map_from_world * p).collect();
         let tags: Vec<_> = tags.iter().map(|&(id, tag)| (id, map_from_world * tag)).collect();
@@ -161,7 +167,7 @@ fn map_along_paths(
         CellBox::around(mapper.lattice(), corners.iter().map(|&p| map_from_world * p))
     });
     let (map, coverage) = mapper.finish(keep)?;
-    Ok(RobotRun { map, coverage, readings, world_from_map, path: believed })
+    Ok(RobotRun { map, coverage, readings, world_from_map, path: believed, shown })
 }
 
 /// How the map of a robot is bent, in the plan.

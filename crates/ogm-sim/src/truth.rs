@@ -4,27 +4,29 @@ use nalgebra::{Point2, Vector2};
 use ogm_core::{Se2, wrap_angle};
 
 use crate::bend::Bend;
+use crate::shown::shared_walls;
 use crate::{RobotRun, SimError};
 
 /// What both robots observed, and how their maps lie on each other there.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairTruth {
-    /// Maps source points into the target map: exact where neither map is bent, else the least
-    /// squares fit over the area that both observed.
+    /// Maps source points into the target map: exact where both robots knew their poses, else the
+    /// least squares fit over the walls that both show, or over the area that both observed where
+    /// they share less than two metres of wall.
     pub target_from_source: Se2,
     /// What both observed over what the one that observed less did.
     pub overlap: f64,
     /// Root mean square of what no rigid transform removes, metres.
     pub residual: f64,
-    /// Centroid of the area that both observed, source frame.
+    /// Centroid of what is fitted, source frame.
     pub shared_centre: Point2<f64>,
-    /// Root mean square distance of that area from its centroid, metres.
+    /// Root mean square distance of what is fitted from its centroid, metres.
     pub shared_radius: f64,
 }
 
 impl PairTruth {
-    /// Root mean square distance over the shared area between where `target_from_source` puts a
-    /// point and where it belongs, metres.
+    /// Root mean square distance over what is fitted between where `target_from_source` puts a
+    /// point and where the truth does, metres.
     #[must_use]
     pub fn displacement(&self, target_from_source: &Se2) -> f64 {
         let (found, truth) = (target_from_source, &self.target_from_source);
@@ -41,8 +43,10 @@ impl PairTruth {
 
 /// Sampled cells that stand for the area of a map.
 const SAMPLES: usize = 20_000;
+/// Fewest places of wall that both show, of a tenth of a metre, that a transform is fitted to.
+const FEWEST: usize = 20;
 
-/// The truth about two maps whose robots' poses were bent; `None` if they share nothing.
+/// The truth about two maps whose robots were wrong about their poses; `None` if they share nothing.
 pub(crate) fn pair_truth(
     target: &RobotRun,
     source: &RobotRun,
@@ -75,6 +79,11 @@ pub(crate) fn pair_truth(
     }
     let shared = target_points.len() as f64 / sampled * observed(target);
     let overlap = (shared / observed(target).min(observed(source))).min(1.0);
+    let walls = shared_walls(target, source);
+    if walls.len() >= FEWEST {
+        target_points = walls.iter().map(|[target, _]| *target).collect();
+        source_points = walls.iter().map(|[_, source]| *source).collect();
+    }
     Ok(Some(fit(&target_points, &source_points, overlap)))
 }
 

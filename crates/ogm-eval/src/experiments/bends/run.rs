@@ -53,7 +53,7 @@ pub(super) fn run(options: &Options) -> anyhow::Result<Vec<Judged>> {
 }
 
 fn judge(bend: f64, pair: &LabelledPair) -> anyhow::Result<Option<Judged>> {
-    let Some((truth, in_target)) = pair.truth.zip(pair.bend) else { return Ok(None) };
+    let Some((truth, in_target)) = pair.truth.zip(pair.bend.as_ref()) else { return Ok(None) };
     let cell = pair.target.frame().resolution().max(pair.source.frame().resolution());
     let mut judged = Judged { bend, overlap: truth.overlap, styles: pair.styles, cell, bent: None };
     let maps = [&pair.target, &pair.source];
@@ -67,7 +67,7 @@ fn judge(bend: f64, pair: &LabelledPair) -> anyhow::Result<Option<Judged>> {
     let moved = |wall: Point2<f64>| if is_applied { bent.report.warp.apply(wall) } else { wall };
     let (mut before, mut after, mut count) = (0.0, 0.0, 0.0);
     for wall in pair.source.occupied_points(&thresholds) {
-        let belongs = in_target.in_target(wall);
+        let Some(belongs) = in_target.in_target(wall) else { continue };
         if (target.nearest_to(belongs) - belongs).norm() > SAME_CELLS * cell {
             continue;
         }

@@ -1,0 +1,128 @@
+//! Where a map shows what its robot saw.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Point2, Vector2};
+use ogm_core::Se2;
+
+use crate::RobotRun;
+
+/// Side of the squares over which displacements are averaged, metres: the faces of a wall, seen from
+/// two rooms, are displaced apart.
+const SQUARE_M: f64 = 0.1;
+/// Squares that are looked through around one in which nothing was hit: rounding to cells, and
+/// walls that a mapper drew thicker.
+const AROUND: i64 = 4;
+
+/// Where a map shows the walls that its robot's lidar hit. A scan is displaced in one piece, by the
+/// errors of the robot's pose, so what a wall is displaced by depends on where it was seen from;
+/// scans from several places are averaged.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(crate) struct Shown {
+    /// By where a place is, and by where it is shown, map frame.
+    by_place: BTreeMap<[i64; 2], Sum>,
+    by_shown: BTreeMap<[i64; 2], Sum>,
+}
+
+/// Of displacements.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+struct Sum {
+    displacement: Vector2<f64>,
+    hits: f64,
+}
+
+impl Shown {
+    /// Adds the hits of a scan that was taken at `place_from_robot` and drawn at
+    /// `shown_from_robot`, both in the map frame.
+    pub(crate) fn add_scan(
+        &mut self,
+        place_from_robot: Se2,
+        shown_from_robot: Se2,
+        beams: &[Vector2<f64>],
+        ranges: &[f64],
+    ) {
+        for (&beam, &range) in beams.iter().zip(ranges).filter(|(_, range)| range.is_finite()) {
+            let hit = Point2::from(beam * range);
+            let (place, shown) = (place_from_robot * hit, shown_from_robot * hit);
+            for (sums, key) in [(&mut self.by_place, place), (&mut self.by_shown, shown)] {
+                let sum = sums.entry(square(key)).or_default();
+                sum.displacement += shown - place;
+                sum.hits += 1.0;
+            }
+        }
+    }
+
+    /// Where the map shows what is at `place`; `None` if nothing was hit there.
+    pub(crate) fn shown(&self, place: Point2<f64>) -> Option<Point2<f64>> {
+        displacement(&self.by_place, place).map(|displacement| place + displacement)
+    }
+
+    /// What the map shows at `shown`; `None` if nothing.
+    pub(crate) fn place(&self, shown: Point2<f64>) -> Option<Point2<f64>> {
+        displacement(&self.by_shown, shown).map(|displacement| shown - displacement)
+    }
+
+    /// Where walls are that were hit: the middles of squares of a tenth of a metre, map frame.
+    pub(crate) fn places(&self) -> impl Iterator<Item = Point2<f64>> {
+        let middle = |square: &[i64; 2]| square.map(|index| (index as f64 + 0.5) * SQUARE_M);
+        self.by_place.keys().map(move |square| Point2::from(middle(square)))
+    }
+}
+
+/// Where every place of one map lies in another, whatever their robots believed about their poses.
+#[derive(Debug, Clone, PartialEq)]
+pub struct PairBend {
+    target: Shown,
+    source: Shown,
+    /// Of places, which no error displaces.
+    target_from_source: Se2,
+}
+
+impl PairBend {
+    pub(crate) fn between(target: &RobotRun, source: &RobotRun) -> Self {
+        Self {
+            target: target.shown.clone(),
+            source: source.shown.clone(),
+            target_from_source: target.world_from_map.between(&source.world_from_map),
+        }
+    }
+
+    /// Where the target shows what the source shows at `shown`, each in its map frame; `None` if
+    /// either robot's lidar hit nothing there.
+    #[must_use]
+    pub fn in_target(&self, shown: Point2<f64>) -> Option<Point2<f64>> {
+        let place = self.source.place(shown)?;
+        self.target.shown(self.target_from_source * place)
+    }
+}
+
+/// Where both maps show the walls that both robots saw (target, source): a pair for every tenth of a
+/// metre.
+pub(crate) fn shared_walls(target: &RobotRun, source: &RobotRun) -> Vec<[Point2<f64>; 2]> {
+    let target_from_source = target.world_from_map.between(&source.world_from_map);
+    let places = source.shown.places();
+    let both = places.filter_map(|place| {
+        let in_target = target.shown.shown(target_from_source * place)?;
+        Some([in_target, source.shown.shown(place)?])
+    });
+    both.collect()
+}
+
+/// The mean of the nearest squares that have any.
+fn displacement(sums: &BTreeMap<[i64; 2], Sum>, at: Point2<f64>) -> Option<Vector2<f64>> {
+    let [column, row] = square(at);
+    (0..=AROUND).find_map(|around| {
+        let columns = column - around..=column + around;
+        let squares = columns.flat_map(|c| sums.range([c, row - around]..=[c, row + around]));
+        let sum = squares.fold(Sum::default(), |all, (_, sum)| Sum {
+            displacement: all.displacement + sum.displacement,
+            hits: all.hits + sum.hits,
+        });
+        (sum.hits > 0.0).then(|| sum.displacement / sum.hits)
+    })
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "a map is within 1000 km")]
+fn square(at: Point2<f64>) -> [i64; 2] {
+    [at.x, at.y].map(|coordinate| (coordinate / SQUARE_M).floor() as i64)
+}

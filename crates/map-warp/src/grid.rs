@@ -11,9 +11,8 @@ use crate::warp::Warp;
 /// Most cells between the places whose origin is computed; between them it is interpolated.
 const MOST_COARSE: usize = 8;
 
-/// Those cells over the distance across which the displacement stays alike: interpolation then errs
-/// by less than a tenth of a cell of 5 cm at the bends that drift makes.
-const COARSE_SHARE: f64 = 0.1;
+/// Cells by which a place interpolated between them errs at most.
+const COARSE_ERROR: f64 = 0.1;
 
 /// A wall that comes out within this many cells of its place is not lost.
 const NEAR_CELLS: f64 = 1.0;
@@ -34,8 +33,10 @@ pub fn warp_grid(
 ) -> Result<OccupancyGrid, WarpError> {
     let (frame, width, height) = extent(map, warp)?;
     let mut cells = Grid::filled(width, height, Occupancy::UNKNOWN)?;
+    // Between places h apart a linear interpolation errs by h²/8 of the curvature on each axis.
+    let coarse_m = (4.0 * COARSE_ERROR * frame.resolution() / warp.curvature()).sqrt();
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
-    let coarse = (COARSE_SHARE * warp.correlation_m() / frame.resolution()) as usize;
+    let coarse = (coarse_m / frame.resolution()) as usize;
     let coarse = coarse.clamp(1, MOST_COARSE);
     let mut below = origins(map, warp, &frame, width, 0, coarse);
     for first in (0..height).step_by(coarse) {

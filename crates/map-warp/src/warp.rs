@@ -55,7 +55,7 @@ impl Warp {
         for (index, motion) in motions.iter().enumerate() {
             motion.check(index)?;
         }
-        let kernel = Kernel { sigma_m: params.drift_sigma_m, length_m: params.correlation_m };
+        let kernel = Kernel::new(params);
         let rough_straight_from_map = rigid_motion(motions, &kernel, Belief::Doubting);
         let believed =
             borne_out(motions, &kernel, &rough_straight_from_map, params.outlier_sigmas)?;
@@ -150,7 +150,7 @@ impl Warp {
     /// straightened frame, m²: that of drift far from all motions.
     #[must_use]
     pub fn covariance(&self, place: Point2<f64>) -> Matrix2<f64> {
-        let prior = Matrix2::from_diagonal_element(self.kernel.sigma_m * self.kernel.sigma_m);
+        let prior = Matrix2::from_diagonal_element(self.kernel.variance());
         let Some(factor) = &self.factor else { return prior };
         let mut seen = DMatrix::zeros(3 * self.centres.len(), 2);
         for (i, (at, _)) in self.centres.iter().enumerate() {
@@ -202,8 +202,9 @@ impl Warp {
         self.stiffened
     }
 
-    pub(crate) fn correlation_m(&self) -> f64 {
-        self.kernel.length_m
+    /// A bound on how much the slope of the displacement changes over a metre, anywhere.
+    pub(crate) fn curvature(&self) -> f64 {
+        self.kernel.most_curved() * self.steepness / self.kernel.steepest()
     }
 
     fn gradient(&self, place: Point2<f64>) -> Matrix2<f64> {

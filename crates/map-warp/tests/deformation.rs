@@ -151,12 +151,34 @@ fn a_place_is_surer_the_nearer_a_patch_and_errs_no_more_than_it_says() {
 
 #[test]
 fn the_jacobian_is_the_derivative() {
-    let warp = fit(&corridor(5));
+    let params = WarpParams { detail_sigma_m: 0.1, ..WarpParams::default() };
+    let warp = Warp::fit(&corridor(5), &params).unwrap();
     let (at, step) = (Point2::new(7.0, 2.0), 1e-5);
     for axis in [Vector2::x(), Vector2::y()] {
         let change = warp.apply(at + axis * step) - warp.apply(at - axis * step);
         assert!((change / (2.0 * step) - warp.jacobian(at) * axis).norm() < 1e-7);
     }
+}
+
+#[test]
+fn walls_of_one_room_are_displaced_apart_by_detail_alone() {
+    let apart = |y: f64| Motion {
+        at: Point2::new(12.0, y),
+        shift: Vector2::new(0.0, 0.03 * (y - 2.0)),
+        turn: 0.0,
+        covariance: covariance(0.01, 0.1),
+    };
+    let walls = [apart(0.0), apart(4.0)];
+    let around =
+        (0..4).map(|i| Motion { shift: Vector2::zeros(), ..apart(2.0 + 8.0 * f64::from(i)) });
+    let motions: Vec<Motion> = walls.into_iter().chain(around).collect();
+    let error = |detail_sigma_m: f64| {
+        let params = WarpParams { correlation_m: 12.0, detail_sigma_m, ..WarpParams::default() };
+        let warp = Warp::fit(&motions, &params).unwrap();
+        let off = |wall: &Motion| (warp.apply(wall.at) - wall.at - wall.shift).norm();
+        walls.iter().map(off).fold(0.0, f64::max)
+    };
+    assert!(error(0.05) < 0.012 && error(0.0) > 0.024, "{} {}", error(0.05), error(0.0));
 }
 
 #[test]
@@ -172,6 +194,8 @@ fn motions_that_cannot_be_meant_are_errors_that_say_which() {
     let many = Warp::fit(&vec![good; 501], &WarpParams::default()).unwrap_err();
     assert!(matches!(many, WarpError::TooManyMotions { have: 501, .. }), "{many}");
     let params = WarpParams { correlation_m: 0.0, ..WarpParams::default() };
+    assert!(matches!(Warp::fit(&[good], &params), Err(WarpError::Parameter(_))));
+    let params = WarpParams { detail_sigma_m: f64::NAN, ..WarpParams::default() };
     assert!(matches!(Warp::fit(&[good], &params), Err(WarpError::Parameter(_))));
 }
 
@@ -197,10 +221,13 @@ proptest! {
         motions in prop::collection::vec(any_motion(), 0..16),
         drift_sigma_m in 0.05..3.0,
         correlation_m in 0.5..8.0,
+        detail in prop_oneof![Just((0.0, 2.0)), (0.01..0.5, 0.5..3.0)],
         // Above any misfit: lies that tear at each other are kept.
         outlier_sigmas in prop_oneof![Just(4.0), Just(1e9)],
     ) {
-        let params = WarpParams { drift_sigma_m, correlation_m, outlier_sigmas };
+        let (detail_sigma_m, detail_m) = detail;
+        let params =
+            WarpParams { drift_sigma_m, correlation_m, detail_sigma_m, detail_m, outlier_sigmas };
         let warp = Warp::fit(&motions, &params).unwrap();
         let between = motions.windows(2).map(|pair| nalgebra::center(&pair[0].at, &pair[1].at));
         let lattice = (0..100).map(|i| {

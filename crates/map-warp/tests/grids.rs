@@ -82,7 +82,12 @@ fn walls_that_shrink_together_are_not_lost() {
             }
         })
         .to_vec();
-    let params = WarpParams { correlation_m: 1.0, drift_sigma_m: 0.5, outlier_sigmas: 1e9 };
+    let params = WarpParams {
+        correlation_m: 1.0,
+        drift_sigma_m: 0.5,
+        outlier_sigmas: 1e9,
+        ..WarpParams::default()
+    };
     let warp = Warp::fit(&motions, &params).unwrap();
     let middle = map.frame().cell_centre(CellIndex { column: 120, row: 60 });
     assert!(warp.jacobian(middle).determinant() < 0.8);
@@ -113,7 +118,12 @@ fn cells_as_coarse_as_the_bend_still_look_up_their_own_place() {
         turn: 0.0,
         covariance: Matrix3::from_diagonal(&Vector3::new(1e-4, 1e-4, 1.0)),
     });
-    let params = WarpParams { drift_sigma_m: 1.0, correlation_m: 3.0, outlier_sigmas: 1e9 };
+    let params = WarpParams {
+        drift_sigma_m: 1.0,
+        correlation_m: 3.0,
+        outlier_sigmas: 1e9,
+        ..WarpParams::default()
+    };
     let warp = Warp::fit(&motions, &params).unwrap();
     let frame = GridFrame::new(1.0, Se2::identity()).unwrap();
     // Probabilities that differ from cell to cell, none of them a wall.

@@ -1,6 +1,7 @@
 //! A bent map made straight: motions of patches and a smooth deformation, in turns, believed where
 //! walls that were held out of the fit say so.
 
+mod buckets;
 mod held_out;
 mod params;
 mod patch;
@@ -23,9 +24,9 @@ pub use self::params::BendParams;
 pub use self::report::{BendReport, BentComponent, BentMap};
 
 /// Sides of the patches, how far they look for walls, and how often at most, coarse to fine,
-/// metres: a drift that grows along a building is followed from room to room.
+/// metres: a drift that grows along a building is followed from room to room, then from wall to wall.
 const STAGES: [(f64, f64, usize); 4] =
-    [(5.0, 0.8, 8), (4.0, 0.5, 5), (3.0, 0.35, 3), (3.0, 0.2, 3)];
+    [(5.0, 0.8, 8), (4.0, 0.5, 4), (3.0, 0.35, 2), (1.5, 0.25, 3)];
 /// Most patches: larger maps get larger ones, for the system of all is dense.
 const MOST_PATCHES: usize = 150;
 /// Settled when no wall moves by more than this share of a cell.

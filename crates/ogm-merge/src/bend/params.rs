@@ -6,8 +6,8 @@ use ogm_core::{ClassThresholds, ParameterError, require};
 /// How a map is bent onto another, and when that is believed.
 #[derive(Debug, Clone, Copy)]
 pub struct BendParams {
-    /// What drift can do to a map: alike over 8 m, where the corrected maps of a simulator are alike
-    /// over some metres more than that; see `docs/bend.md`.
+    /// What drift can do to a map: 0.3 m that are alike over 12 m, and 0.05 m over 2 m, for walls of
+    /// one room that were seen from different places are displaced apart; see `docs/bend.md`.
     pub warp: WarpParams,
     /// Least standard scores by which walls that were held out of the fit must lie better than
     /// under a rigid motion: 2.5, by chance less than one map in a hundred.
@@ -18,7 +18,8 @@ pub struct BendParams {
 
 impl Default for BendParams {
     fn default() -> Self {
-        let warp = WarpParams { correlation_m: 8.0, ..WarpParams::default() };
+        let warp =
+            WarpParams { correlation_m: 12.0, detail_sigma_m: 0.05, ..WarpParams::default() };
         Self { warp, significance: 2.5, thresholds: ClassThresholds::default() }
     }
 }

@@ -8,7 +8,7 @@ use super::walls::{Wall, Walls};
 
 /// Fewest points of wall, and least share of them on walls of the other map, of a patch that says
 /// anything.
-const LEAST_POINTS: usize = 10;
+const LEAST_POINTS: usize = 6;
 const LEAST_SHARE: f64 = 0.5;
 /// Steps of Gauss-Newton; each looks up the nearest walls anew.
 const STEPS: usize = 6;

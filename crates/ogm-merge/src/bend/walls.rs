@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix2, Point2, Vector2};
 use ogm_core::{CellIndex, ClassThresholds, OccupancyGrid, Se2};
 
+use super::buckets::Buckets;
+
 /// One point stands for the wall in a square of this side, metres, and of a cell at least.
 const SPACING_M: f64 = 0.1;
 /// The wall around a point is looked at within this, metres, and these spacings at least.
@@ -18,8 +20,6 @@ const LINE: f64 = 0.15;
 const SIDE_COSINE: f64 = 0.34;
 /// And lines that cross under a larger angle: 45°.
 const LINE_COSINE: f64 = 0.7;
-/// Side of the squares by which points are found, metres.
-const BUCKET_M: f64 = 0.4;
 
 /// A point on a wall.
 #[derive(Debug, Clone, Copy)]
@@ -57,7 +57,7 @@ pub(super) struct Walls {
     pub(super) points: Vec<Wall>,
     /// Metres a cell of the map.
     pub(super) resolution: f64,
-    buckets: BTreeMap<[i64; 2], Vec<usize>>,
+    buckets: Buckets,
 }
 
 impl Walls {
@@ -116,10 +116,7 @@ impl Walls {
     }
 
     fn of(points: Vec<Wall>, resolution: f64) -> Self {
-        let mut buckets: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
-        for (index, wall) in points.iter().enumerate() {
-            buckets.entry(square(wall.at.coords, BUCKET_M)).or_default().push(index);
-        }
+        let buckets = Buckets::new(points.iter().map(|wall| wall.at));
         Self { points, resolution, buckets }
     }
 
@@ -142,12 +139,7 @@ impl Walls {
 
     /// The walls within `reach` of `place`, with their squared distances.
     fn within(&self, place: Point2<f64>, reach: f64) -> impl Iterator<Item = (&Wall, f64)> {
-        let low = square(place.coords - Vector2::repeat(reach), BUCKET_M);
-        let high = square(place.coords + Vector2::repeat(reach), BUCKET_M);
-        let columns = low[0]..=high[0];
-        let rows = columns.map(move |column| [column, low[1]]..=[column, high[1]]);
-        let buckets = rows.flat_map(|rows| self.buckets.range(rows));
-        let walls = buckets.flat_map(|(_, bucket)| bucket).map(|&index| &self.points[index]);
+        let walls = self.buckets.around(place, reach).map(|index| &self.points[index]);
         walls
             .map(move |wall| (wall, (wall.at - place).norm_squared()))
             .filter(move |(_, squared)| *squared <= reach * reach)

@@ -3,6 +3,7 @@
 use ogm_core::Se2;
 
 use crate::evidence::{Evidence, Relaxed, WallFit};
+use crate::parallel::both;
 use crate::prepare::PreparedMap;
 use crate::relax::{MovedPatch, relax};
 use crate::state::State;
@@ -24,8 +25,10 @@ pub(crate) fn evaluate(
     let mut patches = Vec::new();
     if evidence.is_comparable() {
         let second_from_first = first_from_second.inverse();
-        let forth = relax(second, first, first_from_second, reach, most);
-        let back = relax(first, second, &second_from_first, reach, most);
+        let (forth, back) = both(
+            || relax(second, first, first_from_second, reach, most),
+            || relax(first, second, &second_from_first, reach, most),
+        );
         evidence.relaxed = Relaxed {
             walls: worse_first(forth.counts.fit(), back.counts.fit()),
             cross_m: 0.5 * (forth.cross_m + back.cross_m),

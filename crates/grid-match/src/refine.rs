@@ -6,6 +6,7 @@ use nalgebra::{Matrix3, Point2, Vector2, Vector3};
 use ogm_core::Se2;
 
 use crate::lattice::{Slope, floor_index};
+use crate::parallel::both;
 use crate::patches::centroid;
 use crate::prepare::PreparedMap;
 use crate::sides::Facing;
@@ -180,11 +181,27 @@ fn normal_equations(
     points: Points,
 ) -> Normal {
     let centre = *first_from_second * second.centre;
-    let mut sums = Sums { scale_sq: scale * scale, ..Sums::default() };
-    each_pull(first, second, first_from_second, scale, points, |place, slope| {
+    let none = || Sums { scale_sq: scale * scale, ..Sums::default() };
+    let add = |sums: &mut Sums, place: Point2<f64>, slope: Slope| {
         sums.add(slope.value, slope.gradient, place - centre);
-    });
-    sums.into_normal(centre)
+    };
+    let (of_second, of_first) = both(
+        || {
+            let mut sums = none();
+            pulls_on_second(first, second, first_from_second, scale, points, |place, slope| {
+                add(&mut sums, place, slope);
+            });
+            sums
+        },
+        || {
+            let mut sums = none();
+            pulls_on_first(first, second, first_from_second, scale, points, |place, slope| {
+                add(&mut sums, place, slope);
+            });
+            sums
+        },
+    );
+    of_second.plus(&of_first).into_normal(centre)
 }
 
 /// The normal equations of each square of `side` metres in the frame of the first map, all about
@@ -199,19 +216,21 @@ pub(crate) fn clustered_equations(
 ) -> Vec<Normal> {
     let centre = *first_from_second * second.centre;
     let mut clusters: BTreeMap<[usize; 2], Sums> = BTreeMap::new();
-    each_pull(first, second, first_from_second, scale, points, |place, slope| {
+    let mut add = |place: Point2<f64>, slope: Slope| {
         let square = [place.x, place.y].map(|along| floor_index((along / side).max(0.0)));
         let sums = clusters
             .entry(square)
             .or_insert_with(|| Sums { scale_sq: scale * scale, ..Sums::default() });
         sums.add(slope.value, slope.gradient, place - centre);
-    });
+    };
+    pulls_on_second(first, second, first_from_second, scale, points, &mut add);
+    pulls_on_first(first, second, first_from_second, scale, points, &mut add);
     clusters.into_values().map(|sums| sums.into_normal(centre)).collect()
 }
 
-/// Hands every wall point that counts, of both maps, to `add`: its place in the frame of the first
-/// map, and how its distance changes with a motion of the second.
-fn each_pull(
+/// Hands every wall point of the second map that counts to `add`: its place in the frame of the
+/// first, and how its distance changes with a motion of the second.
+fn pulls_on_second(
     first: &PreparedMap,
     second: &PreparedMap,
     first_from_second: &Se2,
@@ -226,6 +245,17 @@ fn each_pull(
             add(in_first, slope);
         }
     }
+}
+
+/// [`pulls_on_second`] for the wall points of the first map in the field of the second.
+fn pulls_on_first(
+    first: &PreparedMap,
+    second: &PreparedMap,
+    first_from_second: &Se2,
+    scale: f64,
+    points: Points,
+    mut add: impl FnMut(Point2<f64>, Slope),
+) {
     let second_from_first = first_from_second.inverse();
     for &WallPoint { at, facing } in first.walls.iter().take(points.most) {
         let in_second = second_from_first * at;
@@ -286,6 +316,14 @@ impl Sums {
         self.gradient[2] += pull * turn;
         self.residual += pull * distance;
         self.weight += weight;
+    }
+
+    fn plus(mut self, other: &Self) -> Self {
+        self.residual += other.residual;
+        self.weight += other.weight;
+        self.products.iter_mut().zip(other.products).for_each(|(sum, other)| *sum += other);
+        self.gradient.iter_mut().zip(other.gradient).for_each(|(sum, other)| *sum += other);
+        self
     }
 
     fn into_normal(self, centre: Point2<f64>) -> Normal {

@@ -9,7 +9,7 @@ use crate::bounds::Bounds;
 use crate::correlate::{Correlator, Surface};
 use crate::correlation_planes::{CorrelationPlanes, FreeShare, Side, turned_box, turned_lattice};
 use crate::lattice::floor_index;
-use crate::parallel::each;
+use crate::parallel::{both, each};
 use crate::prepare::PreparedMap;
 use crate::rotation;
 use crate::work::Work;
@@ -49,9 +49,9 @@ struct Placed {
 impl<'a> CoarsePair<'a> {
     pub(crate) fn new(first: &PreparedMap, second: &'a PreparedMap) -> Self {
         let cell = coarse_cell(first, second);
-        let first_free = FreeShare::of(first, cell);
-        let first_planes = CorrelationPlanes::turned(first, &first_free, 0.0, Side::First);
-        let second_free = FreeShare::of(second, cell);
+        let first_planes =
+            || CorrelationPlanes::turned(first, &FreeShare::of(first, cell), 0.0, Side::First);
+        let (first_planes, second_free) = both(first_planes, || FreeShare::of(second, cell));
         Self { second, cell, first_planes, second_free }
     }
 

@@ -31,6 +31,13 @@ struct Sum {
     hits: f64,
 }
 
+impl Sum {
+    fn add(&mut self, other: &Self) {
+        self.displacement += other.displacement;
+        self.hits += other.hits;
+    }
+}
+
 impl Shown {
     /// Adds the hits of a scan that was taken at `place_from_robot` and drawn at
     /// `shown_from_robot`, both in the map frame.
@@ -41,15 +48,12 @@ impl Shown {
         beams: &[Vector2<f64>],
         ranges: &[f64],
     ) {
-        for (&beam, &range) in beams.iter().zip(ranges).filter(|(_, range)| range.is_finite()) {
-            let hit = Point2::from(beam * range);
-            let (place, shown) = (place_from_robot * hit, shown_from_robot * hit);
-            for (sums, key) in [(&mut self.by_place, place), (&mut self.by_shown, shown)] {
-                let sum = sums.entry(square(key)).or_default();
-                sum.displacement += shown - place;
-                sum.hits += 1.0;
-            }
-        }
+        let hits = beams.iter().zip(ranges).filter(|(_, range)| range.is_finite());
+        let hits = hits.map(|(&beam, &range)| Point2::from(beam * range));
+        let moves = hits.map(|hit| (place_from_robot * hit, shown_from_robot * hit));
+        let moves: Vec<_> = moves.map(|(place, shown)| (place, shown, shown - place)).collect();
+        add(&mut self.by_place, moves.iter().map(|(place, _, by)| (*place, *by)));
+        add(&mut self.by_shown, moves.iter().map(|(_, shown, by)| (*shown, *by)));
     }
 
     /// Where the map shows what is at `place`; `None` if nothing was hit there.
@@ -108,16 +112,29 @@ pub(crate) fn shared_walls(target: &RobotRun, source: &RobotRun) -> Vec<[Point2<
     both.collect()
 }
 
+/// Adds displacements at places, of which those of one square come in a row.
+fn add(
+    sums: &mut BTreeMap<[i64; 2], Sum>,
+    displaced: impl Iterator<Item = (Point2<f64>, Vector2<f64>)>,
+) {
+    let mut displaced = displaced.map(|(at, by)| (square(at), by)).peekable();
+    while let Some((square, by)) = displaced.next() {
+        let mut row = Sum { displacement: by, hits: 1.0 };
+        while let Some((_, by)) = displaced.next_if(|(next, _)| *next == square) {
+            row.add(&Sum { displacement: by, hits: 1.0 });
+        }
+        sums.entry(square).or_default().add(&row);
+    }
+}
+
 /// The mean of the nearest squares that have any.
 fn displacement(sums: &BTreeMap<[i64; 2], Sum>, at: Point2<f64>) -> Option<Vector2<f64>> {
     let [column, row] = square(at);
     (0..=AROUND).find_map(|around| {
         let columns = column - around..=column + around;
         let squares = columns.flat_map(|c| sums.range([c, row - around]..=[c, row + around]));
-        let sum = squares.fold(Sum::default(), |all, (_, sum)| Sum {
-            displacement: all.displacement + sum.displacement,
-            hits: all.hits + sum.hits,
-        });
+        let mut sum = Sum::default();
+        squares.for_each(|(_, square)| sum.add(square));
         (sum.hits > 0.0).then(|| sum.displacement / sum.hits)
     })
 }

@@ -14,9 +14,10 @@ use crate::report::Section;
 
 const ANALYSIS: &str = "\
 Pairs of overlapping maps drawn at random: floors that do not repeat, sensors, resolutions, moved \
-furniture and map styles as in X7. The source is bent by a smooth displacement of the given standard \
-deviation an axis, over waves of 15 to 60 m; the target is straight, or in every third pair bent as \
-much in its own way. Only pairs that the matcher merges rightly are bent.
+furniture and map styles as in X7. What the robot of the source believes about its pose is displaced \
+smoothly, by the given standard deviation an axis, over waves of 15 to 60 m, and its scans with it, \
+each in one piece: a wall is displaced by where it was seen from. The target is straight, or in every \
+third pair bent as much in its own way. Only pairs that the matcher merges rightly are made straight.
 
 The residual is the root mean square distance of walls that both maps show between where the source \
 is put and where the target shows them, which is the true floor where the target is straight. \

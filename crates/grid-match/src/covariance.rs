@@ -4,7 +4,7 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use ogm_core::Se2;
 
 use crate::prepare::PreparedMap;
-use crate::refine::{POLISH_POINTS, Points, Sides, clustered_equations};
+use crate::refine::{Normal, POLISH_POINTS, Points, Sides, clustered_equations};
 use crate::report::{Bend, WeakDirection};
 
 /// Side of the squares over which errors of a map are one error, metres: neighbouring points share
@@ -32,12 +32,10 @@ pub(crate) fn covariance(
     target: &PreparedMap,
     source: &PreparedMap,
     target_local_from_source_local: &Se2,
-    scale: f64,
+    clusters: &[Normal],
     bend: &Bend,
 ) -> (Matrix3<f64>, Option<WeakDirection>) {
-    let points = Points { most: POLISH_POINTS, sides: Sides::Facing };
     let pose = target_local_from_source_local;
-    let clusters = clustered_equations(target, source, pose, scale, points, CLUSTER_M);
     let centre = clusters.first().map_or(*pose * source.centre, |cluster| cluster.centre);
     let bread: Matrix3<f64> = clusters.iter().map(|cluster| cluster.information).sum();
     let filling: Matrix3<f64> =
@@ -64,6 +62,18 @@ pub(crate) fn covariance(
     let jacobian = turned * moved;
     let covariance = jacobian * about_centre * jacobian.transpose();
     (0.5 * (covariance + covariance.transpose()), weak)
+}
+
+/// What the walls of each square say of a pose, at a `scale` in metres.
+pub(crate) fn clusters(
+    target: &PreparedMap,
+    source: &PreparedMap,
+    target_local_from_source_local: &Se2,
+    scale: f64,
+) -> Vec<Normal> {
+    let points = Points { most: POLISH_POINTS, sides: Sides::Facing };
+    let pose = target_local_from_source_local;
+    clustered_equations(target, source, pose, scale, points, CLUSTER_M)
 }
 
 /// What bent maps leave open: their parts do not agree on one pose, and the one that is found need

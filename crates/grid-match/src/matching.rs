@@ -11,7 +11,7 @@ use crate::MatchError;
 use crate::bend::bend;
 use crate::bounds::Bounds;
 use crate::confidence::{Beliefs, FLOOR, modes, probabilities};
-use crate::covariance::covariance;
+use crate::covariance::{clusters, covariance};
 use crate::evidence::Evidence;
 use crate::lattice::floor_index;
 use crate::parallel::{both, each};
@@ -204,10 +204,15 @@ fn hypothesis(
 ) -> Hypothesis {
     let Fit { first_from_second, evidence, score, ref patches } = *fit;
     let scale = first.resolution().max(second.resolution()).max(0.08);
-    let in_full =
-        (probability >= WORTH_A_CLOSER_LOOK).then(|| moved_in_full(first, second, fit)).flatten();
-    let bend = bend(first, second, &first_from_second, in_full.as_ref().unwrap_or(patches));
-    let (covariance, weak_direction) = covariance(first, second, &first_from_second, scale, &bend);
+    let bend = || {
+        let in_full = (probability >= WORTH_A_CLOSER_LOOK)
+            .then(|| moved_in_full(first, second, fit))
+            .flatten();
+        bend(first, second, &first_from_second, in_full.as_ref().unwrap_or(patches))
+    };
+    let (bend, clusters) = both(bend, || clusters(first, second, &first_from_second, scale));
+    let (covariance, weak_direction) =
+        covariance(first, second, &first_from_second, &clusters, &bend);
     Hypothesis {
         pose: RelativePose {
             target_from_source: first.map_from_local

@@ -16,11 +16,10 @@ pub(crate) fn run(args: &AlignArgs) -> anyhow::Result<Ending> {
     let given = Given::new(&[&args.target, &args.source], 0, &[], &args.search)?;
     let quiet = args.search.quiet;
     args.reading.check_memory(&[&args.target, &args.source], Work::Aligning)?;
-    let target = Input::read(&args.target, &args.reading, quiet)?;
-    let source = Input::read(&args.source, &args.reading, quiet)?;
+    let inputs = Input::read_all(&[&args.target, &args.source], &args.reading, quiet)?;
     let answer = {
         let bar = Bar::start("aligning", quiet);
-        search([&target, &source], &logs, &args.search, given.prior(), &bar)?
+        search([&inputs[0], &inputs[1]], &logs, &args.search, given.prior(), &bar)?
     };
     let text = if args.search.json {
         serde_json::to_string_pretty(&answer)? + "\n"

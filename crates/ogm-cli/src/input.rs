@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::anyhow;
 use ogm_core::OccupancyGrid;
 use ogm_io::{IoError, LoadedMap, ReadOptions, YamlError};
+use rayon::iter::{IntoParallelRefIterator, ParallelIterator};
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
@@ -36,12 +37,30 @@ impl Input {
             let _progress = Wheel::start("reading", quiet);
             Self::read_silently(yaml, reading)?
         };
+        input.warn(quiet);
+        Ok(input)
+    }
+
+    /// Reads maps on all cores; says what is suspicious about them unless `quiet`.
+    pub(crate) fn read_all(
+        yamls: &[&Path],
+        reading: &ReadingArgs,
+        quiet: bool,
+    ) -> anyhow::Result<Vec<Self>> {
+        let inputs: Vec<anyhow::Result<Self>> = {
+            let _progress = Wheel::start("reading", quiet);
+            yamls.par_iter().map(|yaml| Self::read_silently(yaml, reading)).collect()
+        };
+        let warned = inputs.into_iter().map(|input| input.inspect(|input| input.warn(quiet)));
+        warned.collect()
+    }
+
+    fn warn(&self, quiet: bool) {
         if !quiet {
-            for warning in &input.loaded.warnings {
-                terminal::warning(&format!("{}: {warning}", yaml.display()));
+            for warning in &self.loaded.warnings {
+                terminal::warning(&format!("{}: {warning}", self.yaml.display()));
             }
         }
-        Ok(input)
     }
 
     /// Reads a map.

@@ -42,8 +42,7 @@ pub(crate) fn run(args: &MergeArgs) -> anyhow::Result<Ending> {
     let bend = bent::when(args, &args.reading.cells(&names));
     let bends = bend != BendArg::Off;
     args.reading.check_memory(&names, Work::Merging { refined, bends })?;
-    let read = |name: &&Path| Input::read(name, &args.reading, quiet);
-    let mut inputs = names.iter().map(read).collect::<anyhow::Result<Vec<_>>>()?;
+    let mut inputs = Input::read_all(&names, &args.reading, quiet)?;
     check_outputs(args, &inputs, logs.iter().flatten().map(AsRef::as_ref))?;
     check_names(args)?;
 

@@ -16,12 +16,12 @@ fn unbent(pair: &LabelledPair) -> BendReport {
 /// target shows them, metres.
 fn residual(pair: &LabelledPair, moved: impl Fn(Point2<f64>) -> Point2<f64>) -> f64 {
     let thresholds = ClassThresholds::default();
-    let (truth, bend) = (pair.truth.unwrap(), pair.bend.unwrap());
+    let (truth, bend) = (pair.truth.unwrap(), pair.bend.as_ref().unwrap());
     let walls = NearestWall::new(&pair.target, &thresholds).unwrap();
     let reach = 2.0 * pair.target.frame().resolution();
     let (mut sum, mut count) = (0.0, 0.0);
     for wall in pair.source.occupied_points(&thresholds) {
-        let belongs = bend.in_target(wall);
+        let Some(belongs) = bend.in_target(wall) else { continue };
         if (walls.nearest_to(belongs) - belongs).norm() <= reach {
             sum += (truth.target_from_source * moved(wall) - belongs).norm_squared();
             count += 1.0;

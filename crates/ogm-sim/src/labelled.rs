@@ -9,8 +9,8 @@ use crate::conditions::{Conditions, direction};
 use crate::draw::{Stream, generator};
 use crate::explore::{Part, explore, free_space};
 use crate::navigate::FreeSpace;
+use crate::pair_bend::PairBend;
 use crate::run::{bend, frame_at_start, random_heading};
-use crate::shown::PairBend;
 use crate::style::MapStyle;
 use crate::truth::{PairTruth, pair_truth};
 use crate::{

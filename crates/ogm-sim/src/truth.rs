@@ -4,7 +4,7 @@ use nalgebra::{Point2, Vector2};
 use ogm_core::{Se2, wrap_angle};
 
 use crate::bend::Bend;
-use crate::shown::shared_walls;
+use crate::pair_bend::shared_walls;
 use crate::{RobotRun, SimError};
 
 /// What both robots observed, and how their maps lie on each other there.

@@ -59,10 +59,10 @@ fn walls_off(bend: f64) -> f64 {
     let thresholds = ClassThresholds::default();
     let mut off = Vec::new();
     for pair in drawn.flatten().filter(|pair| pair.styles == [MapStyle::Plain; 2]) {
-        let (in_target, target) = (pair.bend.unwrap(), NearestWall::new(&pair.target, &thresholds));
+        let target = NearestWall::new(&pair.target, &thresholds);
+        let (Some(in_target), Some(target)) = (pair.bend, target) else { continue };
         let walls = pair.source.occupied_points(&thresholds);
         let places = walls.iter().step_by(7).filter_map(|wall| in_target.in_target(*wall));
-        let target = target.unwrap();
         off.extend(places.map(|place| (target.nearest_to(place) - place).norm()));
     }
     off.retain(|off| *off < 0.6);

@@ -8,10 +8,10 @@ use crate::stats::median;
 /// Least fall of the residual and of doubled walls, percent; most growth and most motion of pairs
 /// that are not bent, cells.
 const FALL: f64 = 60.0;
-/// Least fall where a map was made straight, of a few runs, percent: half of what is reached fails.
-const QUICK_FALL: f64 = 30.0;
 const GROWTH: f64 = 0.2;
 const STILL: f64 = 0.1;
+/// Least fall where a map was made straight, of a few runs, percent: half of what is reached fails.
+const QUICK_FALL: f64 = 30.0;
 /// Most wall of an input that a fused map may lack, percent: the bar of the fusion.
 const LOST: f64 = 5.0;
 

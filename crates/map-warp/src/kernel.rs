@@ -4,6 +4,9 @@ use nalgebra::{Matrix2, Matrix2x3, Matrix3, Point2, Vector2, Vector3};
 
 use crate::params::WarpParams;
 
+/// Square of the distance, in lengths of a scale, beyond which a covariance is below rounding.
+const FAR: f64 = 81.0;
+
 /// Covariance of each component of a displacement u, a sum of σ² exp(−r²/2ℓ²) over scales ℓ, and what
 /// follows from it for the turn ω = ½ curl u: covariances of derivatives are derivatives of the
 /// covariance (Rasmussen, Williams: *Gaussian Processes for Machine Learning*, Eq. 9.1).
@@ -81,7 +84,7 @@ struct Scale {
 impl Scale {
     fn along(&self, away: Vector2<f64>) -> f64 {
         let scaled = away.norm_squared() / (self.length_m * self.length_m);
-        self.sigma_m * self.sigma_m * (-0.5 * scaled).exp()
+        if scaled > FAR { 0.0 } else { self.sigma_m * self.sigma_m * (-0.5 * scaled).exp() }
     }
 
     fn displacement(&self, place: Point2<f64>, at: Point2<f64>) -> Matrix2x3<f64> {

@@ -29,6 +29,9 @@ const STAGES: [(f64, f64, usize); 4] =
     [(5.0, 0.8, 8), (4.0, 0.5, 4), (3.0, 0.35, 2), (1.5, 0.25, 3)];
 /// Most patches: larger maps get larger ones, for the system of all is dense.
 const MOST_PATCHES: usize = 150;
+/// Walls that a fit looks at, some sixty for each of the most patches: of larger maps it takes one
+/// in so many.
+const MOST_WALLS: usize = 10_000;
 /// Settled when no wall moves by more than this share of a cell.
 const SETTLED_CELLS: f64 = 0.1;
 
@@ -110,6 +113,8 @@ fn onto(
     let source = Walls::new(source, &Se2::identity(), &params.thresholds);
     let fit = |walls: Vec<Wall>, from: f64, to: f64| {
         let progress = Stage::new(progress, from, to);
+        let stride = walls.len().div_ceil(MOST_WALLS).max(1);
+        let walls = walls.into_iter().step_by(stride).collect();
         Fit { target, walls, params, cell: source.resolution }.run(&progress)
     };
     let mut held = Held::default();
@@ -147,7 +152,10 @@ impl Fit<'_> {
             for round in 0..rounds {
                 let share = round as f64 / rounds as f64;
                 progress.go_on((stage as f64 + share) / STAGES.len() as f64)?;
-                let follow = |patch: &Vec<Wall>| patch::motion(self.target, &warp, patch, reach);
+                let follow = |patch: &Vec<usize>| {
+                    let walls = patch.iter().map(|&wall| (self.walls[wall], places[wall]));
+                    patch::motion(self.target, &warp, walls.collect(), reach)
+                };
                 let motions: Vec<Motion> = patches.iter().filter_map(follow).collect();
                 followed = motions.len();
                 warp = Warp::fit(&motions, &self.params.warp)?;
@@ -165,13 +173,14 @@ impl Fit<'_> {
         Ok((warp, followed))
     }
 
-    /// The walls by squares of `side` metres, or larger ones where these are too many.
-    fn patches(&self, side: f64) -> Vec<Vec<Wall>> {
+    /// The walls, by their places in the list, in squares of `side` metres, or larger ones where
+    /// these are too many.
+    fn patches(&self, side: f64) -> Vec<Vec<usize>> {
         let mut side = side;
         loop {
-            let mut patches: BTreeMap<[i64; 2], Vec<Wall>> = BTreeMap::new();
-            for wall in &self.walls {
-                patches.entry(square(wall.at.coords, side)).or_default().push(*wall);
+            let mut patches: BTreeMap<[i64; 2], Vec<usize>> = BTreeMap::new();
+            for (index, wall) in self.walls.iter().enumerate() {
+                patches.entry(square(wall.at.coords, side)).or_default().push(index);
             }
             if patches.len() <= MOST_PATCHES {
                 return patches.into_values().collect();

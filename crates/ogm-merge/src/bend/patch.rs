@@ -27,16 +27,21 @@ const END_WEIGHT: f64 = 0.5;
 const CUT_CELLS: f64 = 0.5;
 const SPREAD_M_SQ: f64 = 1.5 * 1.5;
 
-/// A patch follows the walls of `target` within `reach` metres from where `warp` puts it.
-pub(super) fn motion(target: &Walls, warp: &Warp, points: &[Wall], reach: f64) -> Option<Motion> {
-    if points.len() < LEAST_POINTS {
+/// A patch follows the walls of `target` within `reach` metres from where `warp` puts it: `walls`
+/// with these places.
+pub(super) fn motion(
+    target: &Walls,
+    warp: &Warp,
+    walls: Vec<(Wall, Point2<f64>)>,
+    reach: f64,
+) -> Option<Motion> {
+    if walls.len() < LEAST_POINTS {
         return None;
     }
-    let sum: Vector2<f64> = points.iter().map(|wall| wall.at.coords).sum();
-    let at = Point2::from(sum / points.len() as f64);
+    let sum: Vector2<f64> = walls.iter().map(|(wall, _)| wall.at.coords).sum();
+    let at = Point2::from(sum / walls.len() as f64);
     let jacobian = warp.jacobian(at);
     let turn = (jacobian[(1, 0)] - jacobian[(0, 1)]).atan2(jacobian.trace());
-    let walls = points.iter().map(|wall| (*wall, warp.apply(wall.at))).collect();
     let centre = warp.apply(at);
     let placed = Placed { walls, turn, centre };
     let mut moved_from_placed = Se2::identity();
@@ -51,7 +56,7 @@ pub(super) fn motion(target: &Walls, warp: &Warp, points: &[Wall], reach: f64) -
         let here = moved_from_placed * centre;
         moved_from_placed = Se2::about(here, motion.z, motion.xy()) * moved_from_placed;
     }
-    let lines = points.iter().filter(|wall| wall.normal.is_some()).count();
+    let lines = placed.walls.iter().filter(|(wall, _)| wall.normal.is_some()).count();
     if lines == 0 || last.hits < LEAST_SHARE * lines as f64 {
         return None;
     }

@@ -182,24 +182,13 @@ fn normal_equations(
 ) -> Normal {
     let centre = *first_from_second * second.centre;
     let none = || Sums { scale_sq: scale * scale, ..Sums::default() };
-    let add = |sums: &mut Sums, place: Point2<f64>, slope: Slope| {
+    let add = |mut sums: Sums, (place, slope): (Point2<f64>, Slope)| {
         sums.add(slope.value, slope.gradient, place - centre);
+        sums
     };
     let (of_second, of_first) = both(
-        || {
-            let mut sums = none();
-            pulls_on_second(first, second, first_from_second, scale, points, |place, slope| {
-                add(&mut sums, place, slope);
-            });
-            sums
-        },
-        || {
-            let mut sums = none();
-            pulls_on_first(first, second, first_from_second, scale, points, |place, slope| {
-                add(&mut sums, place, slope);
-            });
-            sums
-        },
+        || pulls_on_second(first, second, first_from_second, scale, points).fold(none(), add),
+        || pulls_on_first(first, second, first_from_second, scale, points).fold(none(), add),
     );
     of_second.plus(&of_first).into_normal(centre)
 }
@@ -216,35 +205,29 @@ pub(crate) fn clustered_equations(
 ) -> Vec<Normal> {
     let centre = *first_from_second * second.centre;
     let mut clusters: BTreeMap<[usize; 2], Sums> = BTreeMap::new();
-    let mut add = |place: Point2<f64>, slope: Slope| {
+    let of_second = pulls_on_second(first, second, first_from_second, scale, points);
+    let of_first = pulls_on_first(first, second, first_from_second, scale, points);
+    for (place, slope) in of_second.chain(of_first) {
         let square = [place.x, place.y].map(|along| floor_index((along / side).max(0.0)));
         let sums = clusters
             .entry(square)
             .or_insert_with(|| Sums { scale_sq: scale * scale, ..Sums::default() });
         sums.add(slope.value, slope.gradient, place - centre);
-    };
-    pulls_on_second(first, second, first_from_second, scale, points, &mut add);
-    pulls_on_first(first, second, first_from_second, scale, points, &mut add);
+    }
     clusters.into_values().map(|sums| sums.into_normal(centre)).collect()
 }
 
-/// Hands every wall point of the second map that counts to `add`: its place in the frame of the
-/// first, and how its distance changes with a motion of the second.
+/// Every wall point of the second map that counts: its place in the frame of the first, and how its
+/// distance changes with a motion of the second.
 fn pulls_on_second(
     first: &PreparedMap,
     second: &PreparedMap,
     first_from_second: &Se2,
     scale: f64,
     points: Points,
-    mut add: impl FnMut(Point2<f64>, Slope),
-) {
-    for &WallPoint { at, facing } in second.walls.iter().take(points.most) {
-        let in_first = *first_from_second * at;
-        let facing = || facing.turned(|normal| *first_from_second * normal);
-        if let Some(slope) = points.sides.pull(first, in_first, facing, scale) {
-            add(in_first, slope);
-        }
-    }
+) -> impl Iterator<Item = (Point2<f64>, Slope)> {
+    pulls(first, second, *first_from_second, scale, points)
+        .map(|(_, in_first, slope)| (in_first, slope))
 }
 
 /// [`pulls_on_second`] for the wall points of the first map in the field of the second.
@@ -254,16 +237,27 @@ fn pulls_on_first(
     first_from_second: &Se2,
     scale: f64,
     points: Points,
-    mut add: impl FnMut(Point2<f64>, Slope),
-) {
-    let second_from_first = first_from_second.inverse();
-    for &WallPoint { at, facing } in first.walls.iter().take(points.most) {
-        let in_second = second_from_first * at;
-        let facing = || facing.turned(|normal| second_from_first * normal);
-        if let Some(slope) = points.sides.pull(second, in_second, facing, scale) {
-            add(at, Slope { gradient: -(*first_from_second * slope.gradient), ..slope });
-        }
-    }
+) -> impl Iterator<Item = (Point2<f64>, Slope)> {
+    let first_from_second = *first_from_second;
+    pulls(second, first, first_from_second.inverse(), scale, points).map(move |(at, _, slope)| {
+        (at, Slope { gradient: -(first_from_second * slope.gradient), ..slope })
+    })
+}
+
+/// Every wall point of `map` that counts in the field of `on`, in both frames.
+fn pulls(
+    on: &PreparedMap,
+    map: &PreparedMap,
+    on_from_map: Se2,
+    scale: f64,
+    points: Points,
+) -> impl Iterator<Item = (Point2<f64>, Point2<f64>, Slope)> {
+    map.walls.iter().take(points.most).filter_map(move |&WallPoint { at, facing }| {
+        let place = on_from_map * at;
+        let facing = || facing.turned(|normal| on_from_map * normal);
+        let slope = points.sides.pull(on, place, facing, scale)?;
+        Some((at, place, slope))
+    })
 }
 
 impl Normal {

@@ -11,7 +11,8 @@ use crate::warp::Warp;
 /// Most cells between the places whose origin is computed; between them it is interpolated.
 const MOST_COARSE: usize = 8;
 
-/// Cells by which a place interpolated between them errs at most.
+/// Cells by which a place interpolated between them errs at most, where the deformation is not steep:
+/// the way back is more curved than the displacement, by the cube of one less the slope.
 const COARSE_ERROR: f64 = 0.1;
 
 /// A wall that comes out within this many cells of its place is not lost.

@@ -9,15 +9,13 @@ use crate::terms::Weights;
 pub(crate) const WEIGHTS: Weights = Weights {
     bias: -11.198,
     terms: [
-        // wall that fits, parts of the maps giving way
-        1.274,
-        // wall that fits across the weaker direction of its part, over wall of the better map that does not
-        2.369, // wall of the worse map in free space, parts giving way
-        2.640, // wall that misses wall narrowly, maps as one piece
-        0.170, // area free in both
-        2.451, // overlap
-        2.293, // how unlikely a hit is by chance
-        1.793,
+        1.274, // wall that fits, parts of the maps giving way
+        2.369, // wall that fits across the weaker direction of its part, over wall of the better map that does not
+        2.640, // wall of the worse map in free space, parts giving way
+        0.170, // wall that misses wall narrowly, maps as one piece
+        2.451, // area free in both
+        2.293, // overlap
+        1.793, // how unlikely a hit is by chance
     ],
     any: -1.409,
     score: 0.569,

@@ -10,7 +10,7 @@ pub(super) fn write(weights: &Weights, options: &FitOptions, summary: &str) -> S
     let terms: String = terms
         .iter()
         .zip(TERM_NAMES)
-        .map(|(weight, name)| format!("        // {name}\n        {weight:.3},\n"))
+        .map(|(weight, name)| format!("        {weight:.3}, // {name}\n"))
         .collect();
     let FitOptions { seed, count, .. } = options;
     let summary = wrapped(summary);

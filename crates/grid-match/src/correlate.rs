@@ -6,6 +6,7 @@ use rustfft::num_complex::Complex32;
 use rustfft::{Fft, FftPlanner};
 
 use crate::correlation_planes::CorrelationPlanes;
+use crate::parallel::both;
 
 /// One map transformed, to be correlated with many.
 pub(crate) struct Correlator {
@@ -24,6 +25,9 @@ pub(crate) struct Workspace {
     scratch: Vec<Complex32>,
 }
 
+/// How the lines of a transform are gone through.
+type Lines = fn(&dyn Fft<f32>, &mut [Complex32], &mut Vec<Complex32>);
+
 /// The score of every translation, in coarse cells; negative ones wrap around.
 pub(crate) struct Surface<'a> {
     pub(crate) columns: usize,
@@ -34,13 +38,14 @@ pub(crate) struct Surface<'a> {
 
 impl Correlator {
     /// A correlator for `first` with maps of about `width` × `height` coarse cells, which must
-    /// overlap by at least `overlap` cells to either axis, and of at most `room`.
+    /// overlap by at least `overlap` cells to either axis, and of at most `room`; and room for one
+    /// correlation, for large maps spend long on asking for memory.
     pub(crate) fn new(
         first: &CorrelationPlanes,
         [width, height]: [usize; 2],
         room: [usize; 2],
         overlap: usize,
-    ) -> Self {
+    ) -> (Self, Workspace) {
         let columns = fast_length((first.width + width).saturating_sub(overlap));
         let rows = fast_length((first.height + height).saturating_sub(overlap));
         let (columns, rows) =
@@ -53,9 +58,11 @@ impl Correlator {
         let mut correlator =
             Self { columns, rows, along_rows, along_columns, spectrum: Vec::new() };
         let mut space = correlator.workspace();
-        correlator.transform(first, &mut space);
-        correlator.spectrum = space.turned;
-        correlator
+        // Nothing else is to be done yet, and every correlation after this has a thread of its own.
+        correlator.transform(first, &mut space, in_halves);
+        let spectrum = std::mem::replace(&mut space.turned, correlator.zeros());
+        correlator.spectrum = spectrum;
+        (correlator, space)
     }
 
     /// Cells of a transform.
@@ -64,11 +71,11 @@ impl Correlator {
     }
 
     pub(crate) fn workspace(&self) -> Workspace {
-        let ffts = self.along_rows.iter().chain(&self.along_columns);
-        let scratch = ffts.map(|fft| fft.get_inplace_scratch_len()).max().unwrap_or(0);
-        let zeros = |length| vec![Complex32::default(); length];
-        let [work, turned] = [zeros(self.cells()), zeros(self.cells())];
-        Workspace { work, turned, scratch: zeros(scratch) }
+        Workspace { work: self.zeros(), turned: self.zeros(), scratch: Vec::new() }
+    }
+
+    fn zeros(&self) -> Vec<Complex32> {
+        vec![Complex32::default(); self.cells()]
     }
 
     /// Re Σ_x first(x + Δ) conj(second(x)) for every Δ, and the same of second(−x): of the second map
@@ -81,7 +88,7 @@ impl Correlator {
         second: &CorrelationPlanes,
         space: &'a mut Workspace,
     ) -> [Surface<'a>; 2] {
-        self.transform(second, space);
+        self.transform(second, space, one_by_one);
         let Workspace { work, turned, scratch } = space;
         for column in 0..=self.columns / 2 {
             let opposite = (self.columns - column) % self.columns;
@@ -97,16 +104,16 @@ impl Correlator {
                 turned[there] = plain.conj() + Complex32::I * half.conj();
             }
         }
-        self.along_columns[1].process_with_scratch(turned, scratch);
+        one_by_one(&*self.along_columns[1], turned, scratch);
         transpose::transpose(turned, work, self.rows, self.columns);
-        self.along_rows[1].process_with_scratch(work, scratch);
+        one_by_one(&*self.along_rows[1], work, scratch);
         let scores: &[Complex32] = work;
         let parts: [fn(&Complex32) -> f32; 2] = [|both| both.re, |both| both.im];
         parts.map(|score| Surface { columns: self.columns, rows: self.rows, scores, score })
     }
 
     /// The transform of `map`, transposed, into what is turned in `space`.
-    fn transform(&self, map: &CorrelationPlanes, space: &mut Workspace) {
+    fn transform(&self, map: &CorrelationPlanes, space: &mut Workspace, lines: Lines) {
         let Workspace { work, turned, scratch } = space;
         work.fill(Complex32::default());
         let rows = map.packed.chunks_exact(map.width);
@@ -114,10 +121,22 @@ impl Correlator {
             output[..map.width].copy_from_slice(row);
         }
         let filled = &mut work[..map.height * self.columns];
-        self.along_rows[0].process_with_scratch(filled, scratch);
+        lines(&*self.along_rows[0], filled, scratch);
         transpose::transpose(work, turned, self.columns, self.rows);
-        self.along_columns[0].process_with_scratch(turned, scratch);
+        lines(&*self.along_columns[0], turned, scratch);
     }
+}
+
+fn one_by_one(fft: &dyn Fft<f32>, lines: &mut [Complex32], scratch: &mut Vec<Complex32>) {
+    scratch.resize(fft.get_inplace_scratch_len(), Complex32::default());
+    fft.process_with_scratch(lines, scratch);
+}
+
+fn in_halves(fft: &dyn Fft<f32>, lines: &mut [Complex32], scratch: &mut Vec<Complex32>) {
+    let half = lines.len() / fft.len() / 2 * fft.len();
+    let (low, high) = lines.split_at_mut(half);
+    let mut own = Vec::new();
+    both(|| one_by_one(fft, low, scratch), || one_by_one(fft, high, &mut own));
 }
 
 impl Surface<'_> {
@@ -213,8 +232,8 @@ mod tests {
         fn every_shift_scores_what_the_sum_over_its_cells_does(
             first in planes(), second in planes(),
         ) {
-            let correlator = Correlator::new(&first, [second.width, second.height], [0, 0], 0);
-            let mut space = correlator.workspace();
+            let size = [second.width, second.height];
+            let (correlator, mut space) = Correlator::new(&first, size, [0, 0], 0);
             let [surface, half] = correlator.correlate(&second, &mut space);
             let (columns, rows) = (surface.columns, surface.rows);
             let scale = 1.0 / (columns * rows) as f32;

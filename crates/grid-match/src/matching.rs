@@ -129,35 +129,27 @@ fn search(
         |first_from_second: &Se2| bounds.is_none_or(|bounds| bounds.contains(first_from_second));
     let likely = believed(&found);
     let found: Vec<(Fit, f64)> = found.into_iter().zip(likely).collect();
-    let found = each(
-        &found,
-        || (),
-        |(), (fit, probability)| {
-            let start_first_from_second = fit.first_from_second;
-            let mut first_from_second = start_first_from_second;
-            if *probability >= WORTH_A_CLOSER_LOOK {
-                first_from_second = polish(first, second, start_first_from_second);
-            }
-            // What is reported is what was polished, so it is what has to be weighed and bounded.
-            if !contains(&first_from_second) {
-                first_from_second = start_first_from_second;
-            }
-            polished.step().map(|()| evaluate_in_full(first, second, first_from_second))
-        },
-    )?;
+    let found = each(&found, |(fit, probability)| {
+        let start_first_from_second = fit.first_from_second;
+        let mut first_from_second = start_first_from_second;
+        if *probability >= WORTH_A_CLOSER_LOOK {
+            first_from_second = polish(first, second, start_first_from_second);
+        }
+        // What is reported is what was polished, so it is what has to be weighed and bounded.
+        if !contains(&first_from_second) {
+            first_from_second = start_first_from_second;
+        }
+        polished.step().map(|()| evaluate_in_full(first, second, first_from_second))
+    })?;
     let mut found = modes(found, second.centre);
     found.retain(|fit| fit.score > NOT_COMPARABLE);
     let mut probabilities = believed(&found);
     probabilities.truncate(MOST_HYPOTHESES);
     let believed: Vec<(Fit, f64)> = found.into_iter().zip(probabilities).collect();
-    let hypotheses = each(
-        &believed,
-        || (),
-        |(), (fit, probability)| {
-            let first_from_second = hypothesis(first, second, fit, *probability);
-            Ok(if swapped { first_from_second.inverse() } else { first_from_second })
-        },
-    )?;
+    let hypotheses = each(&believed, |(fit, probability)| {
+        let first_from_second = hypothesis(first, second, fit, *probability);
+        Ok(if swapped { first_from_second.inverse() } else { first_from_second })
+    })?;
     let (work, exhausted) = (search.work.spent(), search.work.exhausted());
     let outcome = if exhausted {
         Outcome::Refused(Refusal::SearchCut { work })

@@ -2,10 +2,20 @@
 
 use ogm_core::Cancelled;
 
-/// `of` each item, in their order; what `scratch` makes is used for one item after the other.
-#[cfg(feature = "rayon")]
-pub(crate) fn each<T: Sync, R: Send, S: Send>(
+/// `of` each item, in their order.
+pub(crate) fn each<T: Sync, R: Send>(
     items: &[T],
+    of: impl Fn(&T) -> Result<R, Cancelled> + Sync + Send,
+) -> Result<Vec<R>, Cancelled> {
+    each_with(items, Vec::new(), || (), |(), item| of(item))
+}
+
+/// `of` each item, in their order; what is `idle`, and then what `scratch` makes, is used for one
+/// item after the other.
+#[cfg(feature = "rayon")]
+pub(crate) fn each_with<T: Sync, R: Send, S: Send>(
+    items: &[T],
+    idle: Vec<S>,
     scratch: impl Fn() -> S + Sync + Send,
     of: impl Fn(&mut S, &T) -> Result<R, Cancelled> + Sync + Send,
 ) -> Result<Vec<R>, Cancelled> {
@@ -13,7 +23,7 @@ pub(crate) fn each<T: Sync, R: Send, S: Send>(
     use std::sync::{Mutex, PoisonError};
 
     // Rayon makes a scratch for each piece of the work, of which there are more than threads.
-    let idle: Mutex<Vec<S>> = Mutex::new(Vec::new());
+    let idle = Mutex::new(idle);
     let idle = || idle.lock().unwrap_or_else(PoisonError::into_inner);
     let with_scratch = |item| {
         let taken = idle().pop();
@@ -25,14 +35,16 @@ pub(crate) fn each<T: Sync, R: Send, S: Send>(
     items.par_iter().map(with_scratch).collect()
 }
 
-/// `of` each item, in their order; what `scratch` makes is used for one item after the other.
+/// `of` each item, in their order; what is `idle`, and then what `scratch` makes, is used for one
+/// item after the other.
 #[cfg(not(feature = "rayon"))]
-pub(crate) fn each<T: Sync, R: Send, S: Send>(
+pub(crate) fn each_with<T: Sync, R: Send, S: Send>(
     items: &[T],
+    mut idle: Vec<S>,
     scratch: impl Fn() -> S + Sync + Send,
     of: impl Fn(&mut S, &T) -> Result<R, Cancelled> + Sync + Send,
 ) -> Result<Vec<R>, Cancelled> {
-    let mut scratch = scratch();
+    let mut scratch = idle.pop().unwrap_or_else(scratch);
     items.iter().map(|item| of(&mut scratch, item)).collect()
 }
 

@@ -7,6 +7,7 @@ use ogm_core::{Cancelled, ClassThresholds, OccupancyGrid, Progress, Se2};
 
 use crate::crop::Crop;
 use crate::lattice::{Lattice, Slope};
+use crate::parallel::both;
 use crate::patches::{Patch, patches};
 use crate::sides::sides;
 use crate::spectrum::{Spectrum, hough_spectrum};
@@ -66,9 +67,8 @@ impl PreparedMap {
         progress.go_on(0.25)?;
         let Crop { state, lattice, map_from_local, offsets } = crop;
         let occupied_cells = count(&state, State::Wall);
-        let distance = wall_distance(&state, &lattice);
-        progress.go_on(0.6)?;
-        let sides = sides(&state, &lattice);
+        let (distance, sides) =
+            both(|| wall_distance(&state, &lattice), || sides(&state, &lattice));
         progress.go_on(0.85)?;
         let spacing = SPACING_M.max(1.01 * lattice.resolution);
         let walls = Walls { state: &state, sides: &sides, lattice: &lattice, offsets: &offsets };

@@ -5,6 +5,7 @@ use std::collections::VecDeque;
 use nalgebra::Point2;
 use ogm_core::{Se2, wrap_angle};
 
+use crate::parallel::both;
 use crate::patches::{Patch, centroid};
 use crate::prepare::PreparedMap;
 use crate::refine::follow;
@@ -112,22 +113,24 @@ impl Chain<'_> {
         if walls.len() < LEAST_POINTS {
             return best;
         }
-        let mut starts = vec![suggested_on_from_map];
-        if suggested_on_from_map != self.on_from_map {
-            starts.push(self.on_from_map);
-        }
-        for start_on_from_map in starts {
+        let followed = |start_on_from_map: Se2| {
             let followed_on_from_map = follow(self.on, walls, start_on_from_map, &SCALES);
             let near = |placed_on_from_map: &Se2, (step, turn): (f64, f64)| {
                 (followed_on_from_map * centre - *placed_on_from_map * centre).norm() <= step
                     && wrap_angle(followed_on_from_map.theta() - placed_on_from_map.theta()).abs()
                         <= turn
             };
-            if near(&start_on_from_map, FROM_NEIGHBOUR) && near(&self.on_from_map, FROM_POSE) {
-                let counts = self.counts(walls, &followed_on_from_map);
-                if counts.fits_better_than(&best.1) {
-                    best = (followed_on_from_map, counts);
-                }
+            (near(&start_on_from_map, FROM_NEIGHBOUR) && near(&self.on_from_map, FROM_POSE))
+                .then(|| (followed_on_from_map, self.counts(walls, &followed_on_from_map)))
+        };
+        let is_led = suggested_on_from_map != self.on_from_map;
+        let (suggested, alone) = both(
+            || followed(suggested_on_from_map),
+            || is_led.then(|| followed(self.on_from_map)).flatten(),
+        );
+        for found in [suggested, alone].into_iter().flatten() {
+            if found.1.fits_better_than(&best.1) {
+                best = found;
             }
         }
         best

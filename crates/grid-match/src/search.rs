@@ -159,18 +159,12 @@ impl<'a> Search<'a> {
         let cost = 2 * COARSE_POINTS * (scales.len() + 1);
         let allowed = candidates.iter().take_while(|_| self.work.spend_points(cost)).count();
         let (first, second) = (self.first, self.second);
-        let mut refined = each(
-            &candidates[..allowed],
-            || (),
-            |(), candidate| {
-                let start_first_from_second = candidate.first_from_second;
-                let first_from_second =
-                    refine(first, second, start_first_from_second, &scales, points);
-                let evidence =
-                    evaluate_rigid(first, second, &first_from_second, reach, COARSE_POINTS);
-                done.step().map(|()| Candidate { first_from_second, score: evidence.rough_score() })
-            },
-        )?;
+        let mut refined = each(&candidates[..allowed], |candidate| {
+            let start_first_from_second = candidate.first_from_second;
+            let first_from_second = refine(first, second, start_first_from_second, &scales, points);
+            let evidence = evaluate_rigid(first, second, &first_from_second, reach, COARSE_POINTS);
+            done.step().map(|()| Candidate { first_from_second, score: evidence.rough_score() })
+        })?;
         refined.sort_by(|a, b| b.score.total_cmp(&a.score));
         let is_inside = |candidate: &&Candidate| {
             self.bounds.is_none_or(|bounds| bounds.contains(&candidate.first_from_second))
@@ -194,18 +188,13 @@ impl<'a> Search<'a> {
         let cost = points * (scales.len() + 1);
         let allowed = promising.iter().take_while(|_| self.work.spend_points(cost)).count();
         let (first, second, bounds) = (self.first, self.second, self.bounds);
-        let fits = each(
-            &promising[..allowed],
-            || (),
-            |(), candidate| {
-                let start_first_from_second = candidate.first_from_second;
-                let first_from_second =
-                    refine(first, second, start_first_from_second, &scales, used);
-                let is_inside = bounds.is_none_or(|bounds| bounds.contains(&first_from_second));
-                let fit = is_inside.then(|| Fit::of(first, second, first_from_second, FINE_POINTS));
-                done.step().map(|()| fit)
-            },
-        )?;
+        let fits = each(&promising[..allowed], |candidate| {
+            let start_first_from_second = candidate.first_from_second;
+            let first_from_second = refine(first, second, start_first_from_second, &scales, used);
+            let is_inside = bounds.is_none_or(|bounds| bounds.contains(&first_from_second));
+            let fit = is_inside.then(|| Fit::of(first, second, first_from_second, FINE_POINTS));
+            done.step().map(|()| fit)
+        })?;
         self.fits.extend(fits.into_iter().flatten());
         Ok(())
     }

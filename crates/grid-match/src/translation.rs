@@ -9,7 +9,7 @@ use crate::bounds::Bounds;
 use crate::correlate::{Correlator, Surface};
 use crate::correlation_planes::{CorrelationPlanes, FreeShare, Side, turned_box, turned_lattice};
 use crate::lattice::floor_index;
-use crate::parallel::{both, each};
+use crate::parallel::{both, each_with};
 use crate::prepare::PreparedMap;
 use crate::rotation;
 use crate::work::Work;
@@ -75,13 +75,14 @@ impl<'a> CoarsePair<'a> {
             room = [room[0].max(columns), room[1].max(rows)];
         }
         let overlap = floor_index(LEAST_OVERLAP_M / self.cell);
-        let correlator = Correlator::new(&self.first_planes, size, room, overlap);
+        let (correlator, space) = Correlator::new(&self.first_planes, size, room, overlap);
         let turns = rotation::by_half_turns(rotations);
         let allowed = turns.iter().take_while(|_| work.spend_transform(correlator.cells()));
         let turns = &turns[..allowed.count()];
         let done = Steps::new(progress, turns.len());
-        let peaks = each(
+        let peaks = each_with(
             turns,
+            vec![space],
             || correlator.workspace(),
             |space, turn| {
                 let (map, free) = (self.second, &self.second_free);

@@ -27,8 +27,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! [`merge_team`] does so for any number of maps, [`MergeSession`] for maps that grow; [`unbend`]
-//! makes maps straight that drift bent.
+//! [`merge_team`] takes any number of maps, [`MergeSession`] maps that grow, [`unbend`] bent ones.
 //!
 //! The papers' methods by themselves, with the evidence of every stage: [`align_by_tags`] (#1 to #3
 //! of Tsardoulias, Thallas, Petrou, *Metric Map Merging using RFID Tags & Topological Information*),
@@ -47,6 +46,7 @@ mod memory;
 mod merge;
 mod method;
 mod pair;
+mod parallel;
 mod params;
 mod pose;
 mod recipes;

@@ -6,6 +6,8 @@ use map_warp::Warp;
 use nalgebra::Point2;
 use ogm_core::Se2;
 
+use crate::parallel::map_in_order;
+
 use super::walls::{Wall, Walls, square};
 
 /// Side of the squares that are held out together, and whose errors count as one, metres: walls
@@ -56,15 +58,18 @@ impl Held {
         half_m: f64,
     ) {
         let rigid = warp.straight_from_map();
-        for wall in walls.filter(|wall| wall.normal.is_some()) {
+        let losses = |wall: &&Wall| {
             let jacobian = warp.jacobian(wall.at);
             let turn = (jacobian[(1, 0)] - jacobian[(0, 1)]).atan2(jacobian.trace());
             let loss = |place, turn| loss(target, wall, place, turn, half_m);
-            let losses = Losses {
+            Losses {
                 still: loss(wall.at, 0.0),
                 rigid: loss(rigid * wall.at, rigid.theta()),
                 bent: loss(warp.apply(wall.at), turn),
-            };
+            }
+        };
+        let walls: Vec<&Wall> = walls.filter(|wall| wall.normal.is_some()).collect();
+        for (wall, losses) in walls.iter().zip(map_in_order(&walls, losses)) {
             if losses.still == 1.0 && losses.bent == 1.0 {
                 continue;
             }

@@ -8,6 +8,7 @@ use super::held_out::Held;
 use super::params::BendParams;
 use crate::MergeError;
 use crate::merge::Component;
+use crate::parallel::map_in_order;
 
 /// Losses of held-out walls that are left at most, of those before: less is not worth a bend.
 const WORTH: f64 = 0.8;
@@ -51,19 +52,22 @@ impl BendReport {
         (walls, cell): (&[Point2<f64>], f64),
         params: &BendParams,
     ) -> Self {
-        let moved = |place: &Point2<f64>| (warp.apply(*place) - place).norm();
-        let moves: Vec<f64> = walls.iter().map(moved).collect();
+        let bends = map_in_order(walls, |place| warp.displacement(*place));
+        let rigid = warp.straight_from_map();
+        let moved =
+            |(place, bend): (&Point2<f64>, &Vector2<f64>)| (rigid * (place + bend) - place).norm();
+        let moves: Vec<f64> = walls.iter().zip(&bends).map(moved).collect();
         let squares: f64 = moves.iter().map(|moved| moved * moved).sum();
         let farthest = walls.iter().zip(&moves).max_by(|a, b| a.1.total_cmp(b.1));
-        // A few hundred say what is typical.
-        let stride = (walls.len() / 300).max(1);
-        let mut sigmas: Vec<f64> =
-            walls.iter().step_by(stride).map(|place| warp.sigma(*place)).collect();
+        // A hundred say what is typical.
+        let stride = (walls.len() / 100).max(1);
+        let typical: Vec<Point2<f64>> = walls.iter().step_by(stride).copied().collect();
+        let mut sigmas = map_in_order(&typical, |place| warp.sigma(*place));
         sigmas.sort_by(f64::total_cmp);
         let contradicted = warp.believed().iter().filter(|believed| !**believed).count();
         let (score, loss_left) = (held.score(), held.left());
-        let bends = walls.iter().map(|place| warp.displacement(*place).norm());
-        let is_worth_it = loss_left <= WORTH && bends.fold(0.0, f64::max) >= LEAST_CELLS * cell;
+        let most = bends.iter().map(Vector2::norm).fold(0.0, f64::max);
+        let is_worth_it = loss_left <= WORTH && most >= LEAST_CELLS * cell;
         Self {
             is_borne_out: score >= params.significance && is_worth_it,
             score,

@@ -5,6 +5,8 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix2, Point2, Vector2};
 use ogm_core::{CellIndex, ClassThresholds, OccupancyGrid, Se2};
 
+use crate::parallel::map_in_order;
+
 use super::buckets::Buckets;
 
 /// One point stands for the wall in a square of this side, metres, and of a cell at least.
@@ -87,14 +89,14 @@ impl Walls {
             Wall { at: Point2::from(face.place / face.cells), normal: None, side }
         });
         let bare = Self::of(bare.collect(), resolution);
-        let points = bare.points.iter().map(|wall| {
+        let points = map_in_order(&bare.points, |wall| {
             let normal = bare.normal_around(wall, AROUND_M.max(AROUND * spacing));
             let facing =
                 |side: Vector2<f64>, normal: Vector2<f64>| normal * normal.dot(&side).signum();
             let side = wall.side.map(|side| normal.map_or(side, |normal| facing(side, normal)));
             Wall { normal, side, ..*wall }
         });
-        Self::of(points.collect(), resolution).moved(frame_from_map)
+        Self::of(points, resolution).moved(frame_from_map)
     }
 
     pub(super) fn moved(&self, moved_from_frame: &Se2) -> Self {

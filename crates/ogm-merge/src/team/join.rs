@@ -7,11 +7,11 @@ use grid_match::MatchParams;
 use ogm_core::Progress;
 
 use super::link::{Evidences, Link};
-use super::parallel::map_in_order;
 use super::part::Part;
 use super::place::placed;
 use super::report::Join;
 use crate::MergeError;
+use crate::parallel::map_in_order;
 
 /// Joins `parts` as far as the evidence goes, beginning with those that are open.
 ///

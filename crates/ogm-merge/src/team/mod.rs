@@ -4,7 +4,6 @@ mod copies;
 mod join;
 mod link;
 mod pairs;
-mod parallel;
 mod params;
 mod part;
 mod place;

@@ -6,8 +6,8 @@ use grid_match::{PreparedMap, Prior};
 use nalgebra::Matrix3;
 use ogm_core::{ClassThresholds, Progress, RelativePose, Se2, Stage, Steps};
 
-use super::parallel::map_in_order;
 use super::params::{KnownPose, PairAlignment};
+use crate::parallel::map_in_order;
 use crate::{
     AlignParams, Hypothesis, MergeError, Method, PairReport, RobotMap, align_pair, align_prepared,
 };

@@ -15,3 +15,18 @@ pub(crate) fn map_in_order<T: Sync, U: Send>(
 pub(crate) fn map_in_order<T, U>(items: &[T], f: impl Fn(&T) -> U) -> Vec<U> {
     items.iter().map(f).collect()
 }
+
+/// What both give.
+#[cfg(feature = "rayon")]
+pub(crate) fn both<A: Send, B: Send>(
+    first: impl FnOnce() -> A + Send,
+    second: impl FnOnce() -> B + Send,
+) -> (A, B) {
+    rayon::join(first, second)
+}
+
+/// What both give.
+#[cfg(not(feature = "rayon"))]
+pub(crate) fn both<A, B>(first: impl FnOnce() -> A, second: impl FnOnce() -> B) -> (A, B) {
+    (first(), second())
+}

@@ -50,7 +50,11 @@ pub fn maps() -> [(&'static str, OccupancyGrid); 2] {
 }
 
 /// Copies of `map` side by side, cut to `side` × `side` cells, in its frame.
-fn tiled(map: &OccupancyGrid, side: usize) -> OccupancyGrid {
+///
+/// # Panics
+/// If that is no size of a grid.
+#[must_use]
+pub fn tiled(map: &OccupancyGrid, side: usize) -> OccupancyGrid {
     let row = |row: usize| map.cells().row(row % map.height()).iter().cycle().take(side);
     let cells = (0..side).flat_map(row).copied().collect();
     OccupancyGrid::new(*map.frame(), Grid::new(side, side, cells).expect("side × side cells"))

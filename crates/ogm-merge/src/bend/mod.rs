@@ -27,11 +27,11 @@ pub use self::report::{BendReport, BentComponent, BentMap};
 /// of `target` as far as drift can have moved them.
 ///
 /// Patches of the source follow the walls of the target; a smooth deformation without folds
-/// ([`map_warp::Warp`]) is fitted to their motions, and from where it puts them they follow again, first in
-/// patches the size of a hall, then of a room. The same is done twice with half of the walls, squares
-/// of a chessboard of 1 m; whether the other half then lies better than under any rigid motion
-/// decides whether the bend is believed ([`BendReport::is_borne_out`]). The pose stays what it is:
-/// the deformation leads from the source map to the same frame.
+/// ([`map_warp::Warp`]) is fitted to their motions, and from where it puts them they follow again,
+/// first in patches the size of a hall, then of a room. The same is done twice with half of the
+/// walls, squares of a chessboard of 1 m; whether the other half then lies better than under any
+/// rigid motion decides whether the bend is believed ([`BendReport::is_borne_out`]). The pose stays
+/// what it is: the deformation leads from the source map to the same frame.
 ///
 /// # Errors
 /// A pose or parameter that cannot be meant, or a call that was cancelled. Maps with too little in

@@ -72,7 +72,7 @@ impl<'a> Fit<'a> {
                     places.iter().zip(&moved).map(|(before, after)| (after - before).norm());
                 let farthest = steps.fold(0.0, f64::max);
                 places = moved;
-                // What goes on without coming nearer to rest goes round in circles.
+                // What comes no nearer to rest mostly goes round in circles, patches believed and not.
                 if farthest <= SETTLED_CELLS * self.cell || farthest >= step_m {
                     break;
                 }

@@ -8,7 +8,7 @@ use crate::prepare::PreparedMap;
 use crate::relax::{MovedPatch, relax};
 use crate::state::State;
 use crate::surroundings::Surroundings;
-use crate::wall_counts::{Reach, WallCounts};
+use crate::wall_counts::{PatchSums, Reach, WallCounts};
 
 /// Most samples of the area for each wall point that may be looked at.
 const SAMPLES_A_POINT: usize = 2;
@@ -30,9 +30,8 @@ pub(crate) fn evaluate(
             || relax(first, second, &second_from_first, reach, most),
         );
         evidence.relaxed = Relaxed {
-            walls: worse_first(forth.counts.fit(), back.counts.fit()),
-            cross_m: 0.5 * (forth.cross_m + back.cross_m),
             moved_m: 0.5 * (forth.moved_m + back.moved_m),
+            ..relaxed(&forth.sums, &back.sums)
         };
         patches = forth.patches;
     }
@@ -47,8 +46,8 @@ pub(crate) fn evaluate_rigid(
     reach: Reach,
     most: usize,
 ) -> Evidence {
-    let forth = WallCounts::of(second, first, first_from_second, reach, most);
-    let back = WallCounts::of(first, second, &first_from_second.inverse(), reach, most);
+    let forth = PatchSums::rigid(second, first, first_from_second, reach, most);
+    let back = PatchSums::rigid(first, second, &first_from_second.inverse(), reach, most);
     let [mut free, mut known, mut near] = [0_u32, 0, 0];
     let stride = second.samples.len().div_ceil(SAMPLES_A_POINT * most).max(1);
     for sample in second.samples.iter().skip(stride / 2).step_by(stride) {
@@ -61,7 +60,7 @@ pub(crate) fn evaluate_rigid(
     }
     let sample_area = second.sample_area * stride as f64;
     let smaller = first.known_area().min(second.known_area());
-    let mean = |value: fn(&WallCounts) -> f64| 0.5 * (value(&forth) + value(&back));
+    let mean = |value: fn(&WallCounts) -> f64| 0.5 * (value(&forth.counts) + value(&back.counts));
     Evidence {
         hit_m: mean(|counts| counts.hit),
         near_miss_m: mean(|counts| counts.near_miss),
@@ -71,11 +70,17 @@ pub(crate) fn evaluate_rigid(
         same_side_m: mean(|counts| counts.same_side),
         opposite_side_m: mean(|counts| counts.opposite_side),
         chance: f64::from(near) / f64::from(known.max(1)),
-        relaxed: Relaxed {
-            walls: worse_first(forth.fit(), back.fit()),
-            cross_m: mean(WallCounts::cross),
-            moved_m: 0.0,
-        },
+        relaxed: relaxed(&forth, &back),
+    }
+}
+
+/// The walls of both maps, their parts not moved.
+fn relaxed(forth: &PatchSums, back: &PatchSums) -> Relaxed {
+    Relaxed {
+        walls: worse_first(forth.counts.fit(), back.counts.fit()),
+        cross_m: 0.5 * (forth.cross + back.cross),
+        fitting: 0.5 * (forth.fitting + back.fitting),
+        moved_m: 0.0,
     }
 }
 

@@ -9,7 +9,7 @@ use crate::parallel::both;
 use crate::patches::{Patch, centroid};
 use crate::prepare::PreparedMap;
 use crate::refine::follow;
-use crate::wall_counts::{Reach, WallCounts};
+use crate::wall_counts::{PatchSums, Reach, WallCounts};
 use crate::wall_points::WallPoint;
 
 /// Fewest wall points of a patch that may move.
@@ -35,9 +35,7 @@ pub(crate) struct MovedPatch {
 
 /// Walls of a map on another, each patch where it fits best.
 pub(crate) struct RelaxedWalls {
-    pub(crate) counts: WallCounts,
-    /// Metres of matched wall across the weaker direction of each patch.
-    pub(crate) cross_m: f64,
+    pub(crate) sums: PatchSums,
     /// Root mean square by which the patches moved, metres.
     pub(crate) moved_m: f64,
     pub(crate) patches: Vec<MovedPatch>,
@@ -143,8 +141,8 @@ impl Chain<'_> {
     }
 
     fn summed(&self, settled: &[Option<(Se2, WallCounts)>]) -> RelaxedWalls {
-        let mut counts = WallCounts::default();
-        let (mut cross_m, mut moved, mut points) = (0.0, 0.0, 0.0);
+        let mut sums = PatchSums::default();
+        let (mut moved, mut points) = (0.0, 0.0);
         let mut patches = Vec::new();
         for (part, settled) in self.parts.iter().zip(settled) {
             let Some((pose, of_patch)) = settled else { continue };
@@ -153,12 +151,11 @@ impl Chain<'_> {
             let step = (*pose * centre - self.on_from_map * centre).norm();
             moved += step * step * walls.len() as f64;
             points += walls.len() as f64;
-            counts.merge(of_patch);
-            cross_m += of_patch.cross();
+            sums.add(of_patch);
             let (hit_m, wall_m) = (of_patch.hit, walls.len() as f64 * self.length);
             patches.push(MovedPatch { centre, on_from_map: *pose, hit_m, wall_m });
         }
         let moved_m = (moved / f64::max(points, 1.0)).sqrt();
-        RelaxedWalls { counts, cross_m, moved_m, patches }
+        RelaxedWalls { sums, moved_m, patches }
     }
 }

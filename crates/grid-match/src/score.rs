@@ -4,13 +4,15 @@ use crate::evidence::Evidence;
 use crate::terms::TERMS;
 use crate::weights::WEIGHTS;
 
-/// Most metres of wall that make a pose surer, and of compared wall whose conflicts are taken in
-/// full; of more, the share that would be as much: larger maps are bent more.
+/// Most metres of compared wall whose conflicts are taken in full; of more, the share that would be
+/// as much: larger maps are bent more.
 const FULL_WALL_M: f64 = 150.0;
 /// More free area, and more wall across the weaker direction, makes no pose surer.
 const MOST_FREE_M2: f64 = 150.0;
 const MOST_CROSS_M: f64 = 40.0;
 
+/// So many parts are taken to fit where none does.
+const LEAST_FITTING: f64 = 0.5;
 /// Less overlap makes no pose less likely.
 const LEAST_OVERLAP: f64 = 0.02;
 /// Chance hits rarer than this make no pose surer.
@@ -26,7 +28,7 @@ impl Evidence {
         let conflict = relaxed.walls.map(|walls| of_full(walls.conflict_m, walls.hit_m));
         let cross = relaxed.cross_m.min(MOST_CROSS_M);
         [
-            relaxed.mean().hit_m.min(FULL_WALL_M).ln_1p(),
+            (relaxed.fitting + LEAST_FITTING).ln(),
             ((cross + 1.0) / (against[0].min(against[1]) + 2.0)).ln(),
             -conflict[0].max(conflict[1]).ln_1p(),
             -of_full(self.near_miss_m, self.hit_m).ln_1p(),
@@ -79,9 +81,9 @@ mod tests {
                 conflict_m,
             })
         };
-        let rest = (0.5_f64..400.0, 0.0_f64..1.0, 0.0_f64..60.0, 0.0_f64..0.6);
+        let rest = (0.5_f64..400.0, 0.0_f64..1.0, 0.0_f64..60.0, 0.0_f64..40.0, 0.0_f64..0.6);
         (walls(), [walls(), walls()], rest, 0.0_f64..1.0).prop_map(
-            |(rigid, walls, (free_m2, overlap, cross_m, chance), same)| {
+            |(rigid, walls, (free_m2, overlap, cross_m, fitting, chance), same)| {
                 let same_side_m = rigid.hit_m * (0.3 + 0.7 * same);
                 Evidence {
                     hit_m: rigid.hit_m,
@@ -92,7 +94,7 @@ mod tests {
                     same_side_m,
                     opposite_side_m: 0.3 * (rigid.hit_m - same_side_m),
                     chance,
-                    relaxed: Relaxed { walls, cross_m, moved_m: 0.1 },
+                    relaxed: Relaxed { walls, cross_m, fitting, moved_m: 0.1 },
                 }
             },
         )
@@ -127,6 +129,7 @@ mod tests {
             prop_assert!(misses <= score + 1e-9);
             prop_assert!(after(&|e| e.free_m2 += more) >= score - 1e-9);
             prop_assert!(after(&|e| e.relaxed.cross_m += more) >= score - 1e-9);
+            prop_assert!(after(&|e| e.relaxed.fitting += more) >= score - 1e-9);
         }
     }
 

@@ -5,7 +5,7 @@ pub const TERMS: usize = 7;
 
 /// What the terms of a score are, in the order of [`Evidence::terms`](crate::Evidence::terms).
 pub const TERM_NAMES: [&str; TERMS] = [
-    "wall that fits, parts of the maps giving way",
+    "parts of the maps that fit, giving way",
     "wall that fits across the weaker direction of its part, over wall of the better map that does not",
     "wall of the worse map in free space, parts giving way",
     "wall that misses wall narrowly, maps as one piece",

@@ -25,6 +25,11 @@ impl Reach {
     }
 }
 
+/// A metre of wall in free space takes off so many that fit, within a patch.
+const AGAINST: f64 = 2.0;
+/// Metres of hits beyond that by which a patch fits by half.
+const HALF_FITS_M: f64 = 0.2;
+
 /// Metres of wall of one map by what the other says there.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct WallCounts {
@@ -39,21 +44,44 @@ pub(crate) struct WallCounts {
     pub(crate) spread: Matrix2<f64>,
 }
 
-impl WallCounts {
-    pub(crate) fn of(
+/// What the patches of a map meet, each where it lies.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct PatchSums {
+    pub(crate) counts: WallCounts,
+    /// Metres of hits across the weaker direction of each patch.
+    pub(crate) cross: f64,
+    /// Patches that fit, each as far as it does.
+    pub(crate) fitting: f64,
+}
+
+impl PatchSums {
+    /// Of `map` as one piece, by at most `most` of its walls.
+    pub(crate) fn rigid(
         map: &PreparedMap,
         on: &PreparedMap,
         on_from_map: &Se2,
         reach: Reach,
         most: usize,
     ) -> Self {
-        let mut counts = Self::default();
-        let used = &map.walls[..map.walls.len().min(most)];
-        let length = map.wall_length() / used.len().max(1) as f64;
-        counts.add(used, on, on_from_map, reach, length);
-        counts
+        let used = map.walls.len().min(most);
+        let length = map.wall_length() / used.max(1) as f64;
+        let mut sums = Self::default();
+        for patch in &map.patches {
+            let mut of_patch = WallCounts::default();
+            of_patch.add(patch.walls(most), on, on_from_map, reach, length);
+            sums.add(&of_patch);
+        }
+        sums
     }
 
+    pub(crate) fn add(&mut self, of_patch: &WallCounts) {
+        self.counts.merge(of_patch);
+        self.cross += of_patch.cross();
+        self.fitting += of_patch.fitting();
+    }
+}
+
+impl WallCounts {
     /// Adds `walls`, each of `length` metres.
     pub(crate) fn add(
         &mut self,
@@ -84,7 +112,7 @@ impl WallCounts {
     }
 
     /// Metres of hits that resist a shift in the direction that they resist least.
-    pub(crate) fn cross(&self) -> f64 {
+    fn cross(&self) -> f64 {
         self.spread.symmetric_eigenvalues().min().max(0.0)
     }
 
@@ -95,6 +123,14 @@ impl WallCounts {
     /// Metres that fit less those that do not.
     fn margin(&self) -> f64 {
         self.hit - self.near_miss - self.conflict
+    }
+
+    /// From 0 to 1: a patch fits where its hits are more than twice its conflicts, and by how much
+    /// more hardly matters, for much wall in one place is mostly one long wall. Near misses count in
+    /// the score by themselves.
+    fn fitting(&self) -> f64 {
+        let beyond = (self.hit - AGAINST * self.conflict).max(0.0);
+        beyond / (beyond + HALF_FITS_M)
     }
 
     /// Whether walls fit better than `other` of the same walls: more fit, or as many and closer.
@@ -120,6 +156,38 @@ impl WallCounts {
             self.spread += facing.normal * facing.normal.transpose() * length;
         } else {
             self.opposite_side -= length * agreement;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{PatchSums, WallCounts};
+    use proptest::prelude::{prop_assert, proptest};
+
+    fn fitting(patches: &[WallCounts]) -> f64 {
+        let mut sums = PatchSums::default();
+        patches.iter().for_each(|patch| sums.add(patch));
+        sums.fitting
+    }
+
+    proptest! {
+        #[test]
+        fn a_part_fits_more_with_every_hit_and_less_with_every_conflict(
+            hit in 0.0_f64..20.0, conflict in 0.0_f64..20.0, more in 0.1_f64..5.0,
+        ) {
+            let of = |hit, conflict| fitting(&[WallCounts { hit, conflict, ..Default::default() }]);
+            let before = of(hit, conflict);
+            prop_assert!((0.0..1.0).contains(&before) && (before > 0.0) == (hit > 2.0 * conflict));
+            prop_assert!(of(hit + more, conflict) >= before);
+            prop_assert!(of(hit, conflict + more) <= before);
+        }
+
+        #[test]
+        fn the_same_wall_in_more_places_says_more(hit in 0.5_f64..20.0, places in 2_u8..10) {
+            let patch = |hit| WallCounts { hit, ..Default::default() };
+            let spread = vec![patch(hit / f64::from(places)); usize::from(places)];
+            prop_assert!(fitting(&spread) > 1.05 * fitting(&[patch(hit)]));
         }
     }
 }

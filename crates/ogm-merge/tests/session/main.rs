@@ -151,7 +151,7 @@ fn begun(share: f64, accept: f64) -> MergeSession {
 fn a_pair_that_lacks_little_is_searched_again_at_any_change() {
     let said = |share| begun(share, 1.0).robot("bob").unwrap().best_match.map_or(0.0, |it| it.1);
     let whole = said(1.0);
-    let mut shares = (1..20).map(|twentieths| 0.05 * f64::from(twentieths));
+    let mut shares = (1..100).map(|hundredths| 0.01 * f64::from(hundredths));
     let share = shares.find(|&share| (0.5..0.95 * whole).contains(&said(share))).unwrap();
     let mut session = begun(share, 0.5 * (said(share) + whole));
     assert_eq!(place(&session, "bob"), None);

@@ -29,10 +29,8 @@ pub(crate) fn evaluate(
             || relax(second, first, first_from_second, reach, most),
             || relax(first, second, &second_from_first, reach, most),
         );
-        evidence.relaxed = Relaxed {
-            moved_m: 0.5 * (forth.moved_m + back.moved_m),
-            ..relaxed(&forth.sums, &back.sums)
-        };
+        let moved_m = 0.5 * (forth.moved_m + back.moved_m);
+        evidence.relaxed = relaxed(&forth.sums, &back.sums, moved_m);
         patches = forth.patches;
     }
     (evidence, patches)
@@ -70,17 +68,17 @@ pub(crate) fn evaluate_rigid(
         same_side_m: mean(|counts| counts.same_side),
         opposite_side_m: mean(|counts| counts.opposite_side),
         chance: f64::from(near) / f64::from(known.max(1)),
-        relaxed: relaxed(&forth, &back),
+        relaxed: relaxed(&forth, &back, 0.0),
     }
 }
 
-/// The walls of both maps, their parts not moved.
-fn relaxed(forth: &PatchSums, back: &PatchSums) -> Relaxed {
+/// The walls of both maps, whose parts moved by `moved_m`.
+fn relaxed(forth: &PatchSums, back: &PatchSums, moved_m: f64) -> Relaxed {
     Relaxed {
         walls: worse_first(forth.counts.fit(), back.counts.fit()),
         cross_m: 0.5 * (forth.cross + back.cross),
         fitting: 0.5 * (forth.fitting + back.fitting),
-        moved_m: 0.0,
+        moved_m,
     }
 }
 

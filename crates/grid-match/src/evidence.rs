@@ -108,8 +108,8 @@ impl Evidence {
     }
 
     /// Share of the probability that is left where the walls of one map contradict the pose: more
-    /// of them stand in free space of the other than on wall, and few of its parts fit. An empty
-    /// room fits so into many buildings, and what the weights learnt does not reach so far.
+    /// of them stand in free space of the other than on wall, and few parts fit. An empty room
+    /// fits so into many buildings, and what the weights learnt does not reach so far.
     pub(crate) fn uncontradicted(&self) -> f64 {
         let most = self.relaxed.walls.iter().map(WallFit::misfit).fold(0.0, f64::max);
         let lost = 1.0 - (-CONTRADICTION * (most - 0.5).max(0.0)).exp();

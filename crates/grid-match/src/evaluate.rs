@@ -76,8 +76,7 @@ pub(crate) fn evaluate_rigid(
 fn relaxed(forth: &PatchSums, back: &PatchSums, moved_m: f64) -> Relaxed {
     Relaxed {
         walls: worse_first(forth.counts.fit(), back.counts.fit()),
-        cross_m: 0.5 * (forth.cross + back.cross),
-        fitting: 0.5 * (forth.fitting + back.fitting),
+        corners: 0.5 * (forth.corners + back.corners),
         moved_m,
     }
 }

@@ -31,12 +31,10 @@ pub struct Evidence {
 pub struct Relaxed {
     /// The walls of each map on the other, those that fit worse first.
     pub walls: [WallFit; 2],
-    /// Metres of matched wall that resist a shift of their part in the direction that it resists
-    /// least, mean of both directions: near zero in a corridor, much where there are corners.
-    pub cross_m: f64,
-    /// Parts of the maps that fit, mean of both directions: each counts up to one, where more than
-    /// twice as much of its wall fits as stands in free space.
-    pub fitting: f64,
+    /// Corners that fit, mean of both directions: places of a metre where more than twice as much
+    /// wall fits as misses and what fits runs in more than one direction; each counts up to one.
+    /// Near zero in a corridor.
+    pub corners: f64,
     /// Root mean square by which the parts moved, metres.
     pub moved_m: f64,
 }
@@ -52,12 +50,6 @@ pub struct WallFit {
     /// In free space, far from any wall.
     pub conflict_m: f64,
 }
-
-/// Rate at which probability is lost with the share of a map's wall that does not fit, above half.
-const CONTRADICTION: f64 = 20.0;
-/// Parts that fit with which a contradiction counts by half: an empty room has few, and where a
-/// dozen fit one map shows what was moved or left out of the other.
-const BORNE_OUT: f64 = 8.0;
 
 impl Relaxed {
     /// The walls of both maps, their mean.
@@ -107,57 +99,10 @@ impl Evidence {
         self.same_side_m + self.opposite_side_m
     }
 
-    /// Share of the probability that is left where the walls of one map contradict the pose: more
-    /// of them stand in free space of the other than on wall, and few parts fit. An empty room
-    /// fits so into many buildings, and what the weights learnt does not reach so far.
-    pub(crate) fn uncontradicted(&self) -> f64 {
-        let most = self.relaxed.walls.iter().map(WallFit::misfit).fold(0.0, f64::max);
-        let lost = 1.0 - (-CONTRADICTION * (most - 0.5).max(0.0)).exp();
-        1.0 - lost / (1.0 + (self.relaxed.fitting / BORNE_OUT).powi(4))
-    }
-
     /// Share of the compared wall that fits.
     #[must_use]
     pub fn agreement(&self) -> f64 {
         let compared = self.hit_m + self.near_miss_m + self.conflict_m;
         if compared > 0.0 { self.hit_m / compared } else { 0.0 }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::{Evidence, Relaxed, WallFit};
-    use proptest::prelude::{prop_assert, proptest};
-
-    fn kept(hit_m: f64, near_miss_m: f64, conflict_m: f64, fitting: f64) -> f64 {
-        let agrees = WallFit { hit_m: 20.0, ..WallFit::default() };
-        let walls = [WallFit { hit_m, near_miss_m, conflict_m }, agrees];
-        Evidence {
-            relaxed: Relaxed { walls, fitting, ..Relaxed::default() },
-            ..Evidence::default()
-        }
-        .uncontradicted()
-    }
-
-    proptest! {
-        #[test]
-        fn a_map_contradicts_a_pose_once_more_of_its_wall_misses_than_fits(
-            hit_m in 0.1_f64..50.0, near_miss_m in 0.0_f64..50.0, conflict_m in 0.0_f64..50.0,
-            more in 0.1_f64..20.0, fitting in 0.0_f64..30.0,
-        ) {
-            let kept = |hit_m, conflict_m, fitting| kept(hit_m, near_miss_m, conflict_m, fitting);
-            let before = kept(hit_m, conflict_m, fitting);
-            let is_contradicted = near_miss_m + conflict_m > hit_m;
-            prop_assert!((before < 1.0) == is_contradicted && before > 0.0);
-            prop_assert!(kept(hit_m + more, conflict_m, fitting) >= before);
-            prop_assert!(kept(hit_m, conflict_m + more, fitting) <= before);
-            prop_assert!(kept(hit_m, conflict_m, fitting + more) >= before);
-        }
-    }
-
-    #[test]
-    fn where_two_thirds_of_a_maps_wall_miss_few_parts_make_no_pose_sure_but_many_do() {
-        assert!(kept(10.0, 0.0, 20.0, 2.0) < 0.05);
-        assert!(kept(100.0, 0.0, 200.0, 20.0) > 0.95);
     }
 }

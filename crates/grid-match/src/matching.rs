@@ -97,10 +97,7 @@ fn search(
     };
     let believed = |fits: &[Fit]| {
         let scores: Vec<f64> = fits.iter().map(|fit| fit.score).collect();
-        let by_scores = probabilities(&scores, beliefs, &WEIGHTS);
-        // Where the best is contradicted the others, which fit worse, are no surer.
-        let kept = fits.first().map_or(1.0, |fit| fit.evidence.uncontradicted());
-        by_scores.into_iter().map(|said| said * kept).collect::<Vec<f64>>()
+        probabilities(&scores, beliefs, &WEIGHTS)
     };
     let mut search = Search::new(first, second, bounds, Work::new(params.work_limit));
     let mut found = Vec::new();

@@ -54,7 +54,8 @@ pub(crate) fn relax(
     let used = map.walls.len().min(most);
     let length = map.wall_length() / used.max(1) as f64;
     let parts = map.patches.iter().map(|patch| Part { patch, walls: patch.walls(most) });
-    let chain = Chain { on, on_from_map: *on_from_map, reach, length, parts: parts.collect() };
+    let parts = parts.collect();
+    let chain = Chain { on, on_from_map: *on_from_map, reach, length, most, parts };
     chain.settle()
 }
 
@@ -69,6 +70,7 @@ struct Chain<'a> {
     on_from_map: Se2,
     reach: Reach,
     length: f64,
+    most: usize,
     parts: Vec<Part<'a>>,
 }
 
@@ -151,7 +153,8 @@ impl Chain<'_> {
             let step = (*pose * centre - self.on_from_map * centre).norm();
             moved += step * step * walls.len() as f64;
             points += walls.len() as f64;
-            sums.add(of_patch);
+            let placed_walls = part.patch.placed_walls(self.most);
+            sums.add(placed_walls, self.on, pose, self.reach, self.length);
             let (hit_m, wall_m) = (of_patch.hit, walls.len() as f64 * self.length);
             patches.push(MovedPatch { centre, on_from_map: *pose, hit_m, wall_m });
         }

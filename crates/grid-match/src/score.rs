@@ -7,12 +7,8 @@ use crate::weights::WEIGHTS;
 /// Most metres of compared wall whose conflicts are taken in full; of more, the share that would be
 /// as much: larger maps are bent more.
 const FULL_WALL_M: f64 = 150.0;
-/// More free area, and more wall across the weaker direction, makes no pose surer.
-const MOST_FREE_M2: f64 = 150.0;
-const MOST_CROSS_M: f64 = 40.0;
-
-/// So many parts are taken to fit where none does.
-const LEAST_FITTING: f64 = 0.5;
+/// Metres of wall that are taken to miss where none does.
+const LEAST_AGAINST_M: f64 = 2.0;
 /// Less overlap makes no pose less likely.
 const LEAST_OVERLAP: f64 = 0.02;
 /// Chance hits rarer than this make no pose surer.
@@ -26,13 +22,11 @@ impl Evidence {
         let relaxed = &self.relaxed;
         let against = relaxed.walls.map(|walls| of_full(walls.against_m(), walls.hit_m));
         let conflict = relaxed.walls.map(|walls| of_full(walls.conflict_m, walls.hit_m));
-        let cross = relaxed.cross_m.min(MOST_CROSS_M);
         [
-            (relaxed.fitting + LEAST_FITTING).ln(),
-            ((cross + 1.0) / (against[0].min(against[1]) + 2.0)).ln(),
+            relaxed.corners.sqrt(),
+            -(against[0].min(against[1]) + LEAST_AGAINST_M).ln(),
             -conflict[0].max(conflict[1]).ln_1p(),
             -of_full(self.near_miss_m, self.hit_m).ln_1p(),
-            self.free_m2.min(MOST_FREE_M2).ln_1p(),
             self.overlap.max(LEAST_OVERLAP).ln(),
             -self.chance.max(LEAST_CHANCE).ln(),
         ]
@@ -81,9 +75,9 @@ mod tests {
                 conflict_m,
             })
         };
-        let rest = (0.5_f64..400.0, 0.0_f64..1.0, 0.0_f64..60.0, 0.0_f64..40.0, 0.0_f64..0.6);
+        let rest = (0.5_f64..400.0, 0.0_f64..1.0, 0.0_f64..80.0, 0.0_f64..0.6);
         (walls(), [walls(), walls()], rest, 0.0_f64..1.0).prop_map(
-            |(rigid, walls, (free_m2, overlap, cross_m, fitting, chance), same)| {
+            |(rigid, walls, (free_m2, overlap, corners, chance), same)| {
                 let same_side_m = rigid.hit_m * (0.3 + 0.7 * same);
                 Evidence {
                     hit_m: rigid.hit_m,
@@ -94,7 +88,7 @@ mod tests {
                     same_side_m,
                     opposite_side_m: 0.3 * (rigid.hit_m - same_side_m),
                     chance,
-                    relaxed: Relaxed { walls, cross_m, fitting, moved_m: 0.1 },
+                    relaxed: Relaxed { walls, corners, moved_m: 0.1 },
                 }
             },
         )
@@ -127,9 +121,7 @@ mod tests {
             prop_assert!(hits >= score - 1e-9);
             prop_assert!(conflicts <= score + 1e-9);
             prop_assert!(misses <= score + 1e-9);
-            prop_assert!(after(&|e| e.free_m2 += more) >= score - 1e-9);
-            prop_assert!(after(&|e| e.relaxed.cross_m += more) >= score - 1e-9);
-            prop_assert!(after(&|e| e.relaxed.fitting += more) >= score - 1e-9);
+            prop_assert!(after(&|e| e.relaxed.corners += more) >= score - 1e-9);
         }
     }
 

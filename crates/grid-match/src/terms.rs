@@ -1,15 +1,14 @@
 //! What a score is made of, and what each part weighs.
 
 /// Number of terms of a score.
-pub const TERMS: usize = 7;
+pub const TERMS: usize = 6;
 
 /// What the terms of a score are, in the order of [`Evidence::terms`](crate::Evidence::terms).
 pub const TERM_NAMES: [&str; TERMS] = [
-    "parts of the maps that fit, giving way",
-    "wall that fits across the weaker direction of its part, over wall of the better map that does not",
+    "corners of wall that fit, parts giving way",
+    "wall of the better map that misses, parts giving way",
     "wall of the worse map in free space, parts giving way",
     "wall that misses wall narrowly, maps as one piece",
-    "area free in both",
     "overlap",
     "how unlikely a hit is by chance",
 ];

@@ -1,10 +1,13 @@
 //! What the walls of one map meet in another.
 
+use std::slice;
+
 use nalgebra::Matrix2;
 use ogm_core::Se2;
 
 use crate::evidence::WallFit;
 use crate::lattice::Slope;
+use crate::patches::PLACES;
 use crate::prepare::PreparedMap;
 use crate::sides::Facing;
 use crate::state::State;
@@ -25,10 +28,13 @@ impl Reach {
     }
 }
 
-/// A metre of wall in free space takes off so many that fit, within a patch.
+/// A metre of wall that misses takes off so many that fit, within a place.
 const AGAINST: f64 = 2.0;
-/// Metres of hits beyond that by which a patch fits by half.
-const HALF_FITS_M: f64 = 0.2;
+/// Metres of hits beyond that by which a place fits by half.
+const HALF_FITS_M: f64 = 0.1;
+/// Share of the hits of a place across their main direction with which it is a corner by half: the
+/// normals of one straight wall scatter by about as much.
+const HALF_CORNER: f64 = 0.1;
 
 /// Metres of wall of one map by what the other says there.
 #[derive(Debug, Clone, Copy, Default)]
@@ -48,10 +54,8 @@ pub(crate) struct WallCounts {
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct PatchSums {
     pub(crate) counts: WallCounts,
-    /// Metres of hits across the weaker direction of each patch.
-    pub(crate) cross: f64,
-    /// Patches that fit, each as far as it does.
-    pub(crate) fitting: f64,
+    /// Corners of wall that fit, each as far as it does.
+    pub(crate) corners: f64,
 }
 
 impl PatchSums {
@@ -67,17 +71,28 @@ impl PatchSums {
         let length = map.wall_length() / used.max(1) as f64;
         let mut sums = Self::default();
         for patch in &map.patches {
-            let mut of_patch = WallCounts::default();
-            of_patch.add(patch.walls(most), on, on_from_map, reach, length);
-            sums.add(&of_patch);
+            sums.add(patch.placed_walls(most), on, on_from_map, reach, length);
         }
         sums
     }
 
-    pub(crate) fn add(&mut self, of_patch: &WallCounts) {
-        self.counts.merge(of_patch);
-        self.cross += of_patch.cross();
-        self.fitting += of_patch.fitting();
+    /// Adds what the walls of a patch, each of `length` metres, meet.
+    pub(crate) fn add<'a>(
+        &mut self,
+        placed_walls: impl Iterator<Item = (usize, &'a WallPoint)>,
+        on: &PreparedMap,
+        on_from_map: &Se2,
+        reach: Reach,
+        length: f64,
+    ) {
+        let mut places = [WallCounts::default(); PLACES];
+        for (place, wall) in placed_walls {
+            places[place].add(slice::from_ref(wall), on, on_from_map, reach, length);
+        }
+        for place in &places {
+            self.counts.merge(place);
+            self.corners += place.corner();
+        }
     }
 }
 
@@ -111,11 +126,6 @@ impl WallCounts {
         }
     }
 
-    /// Metres of hits that resist a shift in the direction that they resist least.
-    fn cross(&self) -> f64 {
-        self.spread.symmetric_eigenvalues().min().max(0.0)
-    }
-
     pub(crate) fn fit(&self) -> WallFit {
         WallFit { hit_m: self.hit, near_miss_m: self.near_miss, conflict_m: self.conflict }
     }
@@ -125,12 +135,13 @@ impl WallCounts {
         self.hit - self.near_miss - self.conflict
     }
 
-    /// From 0 to 1: a patch fits where its hits are more than twice its conflicts, and by how much
-    /// more hardly matters, for much wall in one place is mostly one long wall. Near misses count in
-    /// the score by themselves.
-    fn fitting(&self) -> f64 {
-        let beyond = (self.hit - AGAINST * self.conflict).max(0.0);
-        beyond / (beyond + HALF_FITS_M)
+    /// From 0 to 1: a place is a corner that fits where its hits are more than twice what misses,
+    /// by how much more hardly matters, and run in more than one direction. A straight wall slides
+    /// along another, and is found in every building.
+    fn corner(&self) -> f64 {
+        let beyond = (self.hit - AGAINST * (self.near_miss + self.conflict)).max(0.0);
+        let across = self.spread.symmetric_eigenvalues().min().max(0.0) / self.hit.max(1e-9);
+        beyond / (beyond + HALF_FITS_M) * (across / (across + HALF_CORNER))
     }
 
     /// Whether walls fit better than `other` of the same walls: more fit, or as many and closer.
@@ -162,32 +173,36 @@ impl WallCounts {
 
 #[cfg(test)]
 mod tests {
-    use super::{PatchSums, WallCounts};
-    use proptest::prelude::{prop_assert, proptest};
+    use super::WallCounts;
+    use nalgebra::Matrix2;
+    use proptest::prelude::{prop_assert, prop_assert_eq, proptest};
 
-    fn fitting(patches: &[WallCounts]) -> f64 {
-        let mut sums = PatchSums::default();
-        patches.iter().for_each(|patch| sums.add(patch));
-        sums.fitting
+    fn corner(along: f64, across: f64, near_miss: f64, conflict: f64) -> f64 {
+        let spread = Matrix2::new(along, 0.0, 0.0, across);
+        WallCounts { hit: along + across, near_miss, conflict, spread, ..Default::default() }
+            .corner()
     }
 
     proptest! {
         #[test]
-        fn a_part_fits_more_with_every_hit_and_less_with_every_conflict(
-            hit in 0.0_f64..20.0, conflict in 0.0_f64..20.0, more in 0.1_f64..5.0,
+        fn a_place_is_more_of_a_corner_the_more_fits_and_less_the_more_misses(
+            along in 0.5_f64..3.0, across in 0.01_f64..0.5, missed in 0.0_f64..2.0,
+            more in 0.0_f64..1.0, times in 1.0_f64..3.0,
         ) {
-            let of = |hit, conflict| fitting(&[WallCounts { hit, conflict, ..Default::default() }]);
-            let before = of(hit, conflict);
-            prop_assert!((0.0..1.0).contains(&before) && (before > 0.0) == (hit > 2.0 * conflict));
-            prop_assert!(of(hit + more, conflict) >= before);
-            prop_assert!(of(hit, conflict + more) <= before);
+            let before = corner(along, across, missed, 0.0);
+            prop_assert!((0.0..1.0).contains(&before));
+            prop_assert_eq!(before > 0.0, along + across > 2.0 * missed);
+            prop_assert!(corner(along, (across + more).min(along), missed, 0.0) >= before);
+            prop_assert!(corner(times * along, times * across, missed, 0.0) >= before);
+            prop_assert!(corner(along, across, missed + more, 0.0) <= before);
+            prop_assert!(corner(along, across, missed, more) <= before);
         }
+    }
 
-        #[test]
-        fn the_same_wall_in_more_places_says_more(hit in 0.5_f64..20.0, places in 2_u8..10) {
-            let patch = |hit| WallCounts { hit, ..Default::default() };
-            let spread = vec![patch(hit / f64::from(places)); usize::from(places)];
-            prop_assert!(fitting(&spread) > 1.05 * fitting(&[patch(hit)]));
-        }
+    #[test]
+    fn a_straight_wall_is_no_corner() {
+        assert_eq!(corner(2.0, 0.0, 0.0, 0.0), 0.0);
+        assert!(corner(2.0, 0.02, 0.0, 0.0) < 0.1);
+        assert!(corner(0.5, 0.5, 0.0, 0.0) > 0.7);
     }
 }

@@ -1,26 +1,25 @@
 //! Weights of the score and of the probability.
 //!
 //! Written by `cargo xtask fit --seed 400000 --count 100`:
-//! 3311 pairs, 1138 with a right pose listed; loss a pair 0.2578 of the poses, 0.1467 of any of
+//! 3600 pairs, 1192 with a right pose listed; loss a pair 0.2625 of the poses, 0.1562 of any of
 //! them.
 
 use crate::terms::Weights;
 
 pub(crate) const WEIGHTS: Weights = Weights {
-    bias: -9.142,
+    bias: -11.046,
     terms: [
-        4.988, // parts of the maps that fit, giving way
-        2.064, // wall that fits across the weaker direction of its part, over wall of the better map that does not
-        1.712, // wall of the worse map in free space, parts giving way
-        0.747, // wall that misses wall narrowly, maps as one piece
-        0.036, // area free in both
-        2.489, // overlap
-        2.226, // how unlikely a hit is by chance
+        4.852, // corners of wall that fit, parts giving way
+        1.859, // wall of the better map that misses, parts giving way
+        1.474, // wall of the worse map in free space, parts giving way
+        0.730, // wall that misses wall narrowly, maps as one piece
+        0.884, // overlap
+        2.641, // how unlikely a hit is by chance
     ],
-    any: -1.701,
-    score: 0.568,
-    lead: 0.912,
-    rival: 0.357,
-    repeats: 1.279,
-    repeats_odds: 0.079,
+    any: -1.338,
+    score: 0.580,
+    lead: 0.753,
+    rival: 0.435,
+    repeats: 1.513,
+    repeats_odds: 0.097,
 };

@@ -76,8 +76,8 @@ fn a_corridor_names_the_direction_in_which_it_slides() {
         let weak = report.hypotheses[0].weak_direction.unwrap();
         let along = weak.direction.x * (-heading).cos() + weak.direction.y * (-heading).sin();
         assert!(along.abs() > 0.999, "{weak:?}");
-        let evidence = report.hypotheses[0].evidence;
-        assert!(evidence.relaxed.cross_m < 0.05 * evidence.hit_m, "{evidence:?}");
+        let relaxed = report.hypotheses[0].evidence.relaxed;
+        assert!(relaxed.corners < 0.1 * relaxed.mean().hit_m, "{relaxed:?}");
     }
 }
 

@@ -1,5 +1,6 @@
 //! Floors of many kinds, drawn at random.
 
+mod bare;
 mod clutter;
 mod flat;
 mod hall;
@@ -30,11 +31,13 @@ pub enum FloorKind {
     RepeatedRooms,
     /// Offices that turn into themselves by half a turn, but for a few pieces of furniture.
     HalfTurn,
+    /// One room of 3–18 m a side with little in it, as the arena of a test or an empty hall.
+    Bare,
 }
 
 impl FloorKind {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Offices,
         Self::Flat,
         Self::Hall,
@@ -42,6 +45,7 @@ impl FloorKind {
         Self::Ring,
         Self::RepeatedRooms,
         Self::HalfTurn,
+        Self::Bare,
     ];
 
     /// Whether parts of such a floor look like other parts, so that two maps may fit in several
@@ -62,6 +66,7 @@ impl FloorKind {
             Self::Ring => "ring",
             Self::RepeatedRooms => "repeated rooms",
             Self::HalfTurn => "half turn",
+            Self::Bare => "bare",
         }
     }
 
@@ -77,6 +82,7 @@ impl FloorKind {
             Self::Ring => ring::draw,
             Self::RepeatedRooms => repeated::draw_rooms,
             Self::HalfTurn => repeated::draw_half_turn,
+            Self::Bare => bare::draw,
         };
         draft(&mut rng).into_plan()
     }

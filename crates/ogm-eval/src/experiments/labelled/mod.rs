@@ -11,7 +11,7 @@ use crate::options::Options;
 use crate::report::Section;
 
 const ANALYSIS: &str = "\
-Pairs of maps drawn at random: floors of seven kinds, the parts that two robots explore, their \
+Pairs of maps drawn at random: floors of eight kinds, the parts that two robots explore, their \
 sensors and resolutions, drift, moved furniture, the mappers that saved the maps. A merge is right \
 if the root mean square displacement over the walls that both maps show is below 0.4 m, besides the \
 residual of the best rigid transform of bent maps, and the turn below 3°.

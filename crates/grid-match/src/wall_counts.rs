@@ -139,8 +139,11 @@ impl WallCounts {
     /// by how much more hardly matters, and run in more than one direction. A straight wall slides
     /// along another, and is found in every building.
     fn corner(&self) -> f64 {
-        let beyond = (self.hit - AGAINST * (self.near_miss + self.conflict)).max(0.0);
-        let across = self.spread.symmetric_eigenvalues().min().max(0.0) / self.hit.max(1e-9);
+        let beyond = self.hit - AGAINST * (self.near_miss + self.conflict);
+        if beyond <= 0.0 {
+            return 0.0;
+        }
+        let across = self.spread.symmetric_eigenvalues().min().max(0.0) / self.hit;
         beyond / (beyond + HALF_FITS_M) * (across / (across + HALF_CORNER))
     }
 

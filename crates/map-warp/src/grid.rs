@@ -9,7 +9,7 @@ use crate::error::WarpError;
 use crate::warp::Warp;
 
 /// Most cells between the places whose origin is computed; between them it is interpolated.
-const MOST_COARSE: usize = 8;
+const MOST_COARSE: usize = 32;
 
 /// Cells by which a place interpolated between them errs at most, where the deformation is not steep:
 /// the way back is more curved than the displacement, by the cube of one less the slope.
@@ -39,6 +39,7 @@ pub fn warp_grid(
     #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "saturates")]
     let coarse = (coarse_m / frame.resolution()) as usize;
     let coarse = coarse.clamp(1, MOST_COARSE);
+    let mut has_come_out = Grid::filled(map.width(), map.height(), false)?;
     let mut below = origins(map, warp, &frame, width, 0, coarse);
     for first in (0..height).step_by(coarse) {
         progress.go_on(first as f64 / height as f64)?;
@@ -49,11 +50,12 @@ pub fn warp_grid(
                 let (left, right) = (column / coarse, (column % coarse) as f64 / coarse as f64);
                 let low = below[left].lerp(&below[left + 1], right);
                 let high = above[left].lerp(&above[left + 1], right);
-                let cell = index_of(low.lerp(&high, up)).and_then(|at| map.cells().get(at));
-                if let (Some(&cell), Some(output)) =
-                    (cell, cells.get_mut(CellIndex { column, row }))
-                {
-                    *output = cell;
+                let Some(origin) = index_of(low.lerp(&high, up)) else { continue };
+                let place = cells.get_mut(CellIndex { column, row });
+                let source = map.cells().get(origin).zip(has_come_out.get_mut(origin));
+                if let (Some(place), Some((&cell, has_come_out))) = (place, source) {
+                    *place = cell;
+                    *has_come_out = true;
                 }
             }
         }
@@ -62,7 +64,9 @@ pub fn warp_grid(
     let lost: Vec<(CellIndex, Occupancy)> = map
         .cells()
         .indexed()
-        .filter(|&(_, &cell)| thresholds.is_occupied(cell))
+        .filter(|&(index, &cell)| {
+            thresholds.is_occupied(cell) && has_come_out.get(index) == Some(&false)
+        })
         .filter_map(|(index, &cell)| {
             let place = frame.cells_from_point(warp.apply(map.frame().cell_centre(index)));
             let there = index_of(place.coords)?;

@@ -125,7 +125,7 @@ fn nearest(report: &TeamReport, maps: &[usize]) -> Option<(usize, String)> {
         let found = pair.report.as_ref()?;
         let why = match found.outcome.refusal() {
             Some(refusal) => refusal.detail(),
-            None => "the two match, and the others contradict it".to_owned(),
+            None => "the two match, and all maps together do not bear it out".to_owned(),
         };
         Some((found.probability().unwrap_or(0.0), other, why))
     });

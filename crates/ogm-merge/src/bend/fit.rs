@@ -17,7 +17,7 @@ use super::walls::{Wall, Walls, square};
 /// Sides of the patches, how far they look for walls, and how often at most, coarse to fine,
 /// metres: a drift that grows along a building is followed from room to room, then from wall to wall.
 const STAGES: [(f64, f64, usize); 4] =
-    [(5.0, 0.8, 8), (4.0, 0.5, 4), (3.0, 0.35, 2), (1.5, 0.25, 3)];
+    [(5.0, 0.8, 8), (3.0, 0.5, 4), (2.0, 0.35, 3), (1.0, 0.25, 3)];
 /// Rounds of all stages.
 pub(super) const MOST_ROUNDS: usize = {
     let [(.., first), (.., second), (.., third), (.., fourth)] = STAGES;

@@ -6,22 +6,17 @@ use ogm_core::Se2;
 
 use super::walls::{Wall, Walls};
 
-/// Fewest points of wall, and least share of them on walls of the other map, of a patch that says
-/// anything.
-const LEAST_POINTS: usize = 6;
-const LEAST_SHARE: f64 = 0.5;
 /// Steps of Gauss-Newton; each looks up the nearest walls anew.
 const STEPS: usize = 6;
 /// A turn of a patch that is as large as a shift by the reach: on a patch of some metres, radians.
 const TURN_REACH: f64 = 0.08;
-/// Points in a row whose errors are one error: of a wall that was cut into cells at one angle.
-const ALIKE: f64 = 5.0;
+/// Points in a row whose errors are one error: of some two metres of wall, which the same scans saw
+/// and which were cut into cells at one angle.
+const ALIKE: f64 = 20.0;
 
 /// How far a patch may have to move where its walls say nothing, as along a corridor, metres and
 /// radians: that it did not move there is no evidence.
 const OPEN: (f64, f64) = (5.0, 0.5);
-/// Weight of the end of a wall, of that of a line.
-const END_WEIGHT: f64 = 0.5;
 /// How far walls are cut wrongly together, by who made the map, in cells; and the square of how far
 /// they lie from the middle of a patch, for what that does to its turn.
 const CUT_CELLS: f64 = 0.5;
@@ -35,9 +30,6 @@ pub(super) fn motion(
     walls: Vec<(Wall, Point2<f64>)>,
     reach: f64,
 ) -> Option<Motion> {
-    if walls.len() < LEAST_POINTS {
-        return None;
-    }
     let sum: Vector2<f64> = walls.iter().map(|(wall, _)| wall.at.coords).sum();
     let at = Point2::from(sum / walls.len() as f64);
     let jacobian = warp.jacobian(at);
@@ -56,15 +48,15 @@ pub(super) fn motion(
         let here = moved_from_placed * centre;
         moved_from_placed = Se2::about(here, motion.z, motion.xy()) * moved_from_placed;
     }
-    let lines = placed.walls.iter().filter(|(wall, _)| wall.normal.is_some()).count();
-    if lines == 0 || last.hits < LEAST_SHARE * lines as f64 {
+    let has_line = placed.walls.iter().any(|(wall, _)| wall.normal.is_some());
+    if !has_line || last.weight <= 0.0 {
         return None;
     }
     let moved = moved_from_placed * centre;
     let is_near = (moved - centre).norm() <= 1.5 * reach
         && moved_from_placed.theta().abs() <= 1.5 * TURN_REACH;
     is_near.then_some(())?;
-    let variance = (last.squares / last.weight.max(1e-9)).max((0.3 * target.resolution).powi(2));
+    let variance = (last.squares / last.weight).max((0.3 * target.resolution).powi(2));
     let sigma = (ALIKE * variance).sqrt();
     let open = Vector3::new(OPEN.0, OPEN.0, OPEN.1).map(|most| (sigma / most).powi(2));
     let known = last.products + Matrix3::from_diagonal(&open);
@@ -90,7 +82,6 @@ struct Normal {
     slope: Vector3<f64>,
     squares: f64,
     weight: f64,
-    hits: f64,
 }
 
 impl Normal {
@@ -112,8 +103,7 @@ impl Normal {
             };
             let off = nearest.off(place);
             let root = scale * scale / (scale * scale + off.norm_squared());
-            // Ends and corners hold a wall along itself, and are cut less truly than lines.
-            let weight = root * root * if nearest.normal.is_some() { 1.0 } else { END_WEIGHT };
+            let weight = root * root;
             let arm = place - centre;
             let mut add = |direction: Vector2<f64>| {
                 let row = Vector3::new(direction.x, direction.y, arm.perp(&direction));
@@ -123,11 +113,11 @@ impl Normal {
             };
             match nearest.normal {
                 Some(normal) => add(normal),
+                // Ends and corners hold a wall along itself.
                 None => [Vector2::x(), Vector2::y()].into_iter().for_each(&mut add),
             }
             sums.squares += weight * off.norm_squared();
             sums.weight += weight;
-            sums.hits += f64::from(u8::from(wall.normal.is_some() && off.norm() <= scale));
         }
         sums
     }

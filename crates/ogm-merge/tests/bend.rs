@@ -33,8 +33,12 @@ fn residual(pair: &LabelledPair, moved: impl Fn(Point2<f64>) -> Point2<f64>) -> 
 
 #[test]
 fn walls_of_a_bent_map_come_to_lie_where_the_other_map_shows_them() {
-    for (kind, seed) in [(FloorKind::Offices, 722), (FloorKind::Offices, 707)] {
-        let pair = bent_pair(kind, [0.0, 0.2], seed).unwrap();
+    for (kind, bends, seed) in [
+        (FloorKind::Offices, [0.0, 0.2], 722),
+        (FloorKind::Offices, [0.0, 0.2], 707),
+        (FloorKind::Hall, [0.2, 0.2], 423),
+    ] {
+        let pair = bent_pair(kind, bends, seed).unwrap();
         let report = unbent(&pair);
         assert!(report.is_borne_out, "{} scores", report.score);
         let before = residual(&pair, |wall| wall);

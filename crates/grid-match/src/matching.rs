@@ -13,7 +13,6 @@ use crate::bounds::Bounds;
 use crate::confidence::{Beliefs, FLOOR, modes, probabilities};
 use crate::covariance::{clusters, covariance};
 use crate::evidence::Evidence;
-use crate::lattice::floor_index;
 use crate::parallel::{both, each};
 use crate::params::{Effort, MatchParams};
 use crate::prepare::PreparedMap;
@@ -179,9 +178,9 @@ pub fn score_pose(
 }
 
 fn too_little(map: &PreparedMap, params: &MatchParams) -> Option<Refusal> {
-    let need = floor_index((params.min_wall_m / map.resolution()).ceil().min(1e15)).max(1);
-    let have = map.occupied_cells;
-    let metres = |cells: usize| cells as f64 * map.resolution();
+    let need = (params.min_wall_m / map.resolution()).ceil().max(1.0);
+    let have = map.occupied_cells as f64;
+    let metres = |cells: f64| cells * map.resolution();
     (have < need).then(|| Refusal::TooLittleWall { have_m: metres(have), need_m: metres(need) })
 }
 

@@ -106,7 +106,8 @@ impl PreparedMap {
     }
 
     /// How far the nearest wall is from `at`, local, and what else is said there.
-    #[inline]
+    #[inline(always)]
+    #[expect(clippy::inline_always, reason = "as that which it calls")]
     pub(crate) fn surroundings(&self, at: Point2<f64>) -> Option<(Slope, Surroundings)> {
         surroundings(&self.cells, &self.lattice, at)
     }

@@ -18,6 +18,10 @@ const MOST_OF_BLOCKS: usize = 3000;
 /// Angles of the window whose minimum counts as no direction at all.
 const WINDOW: usize = 91;
 
+/// Added to a number from 0 to this, it leaves the nearest whole number in the lowest bits: many at
+/// once, where a conversion has to look out for what fits no integer.
+const WHOLE: f32 = 8_388_608.0;
+
 /// Strength of every wall direction over half a turn, of mean 0 and norm 1, or all zero.
 pub(crate) type Spectrum = Vec<f64>;
 
@@ -65,7 +69,7 @@ fn power(points: &[WallPoint], bin: f64) -> Vec<f64> {
     let mut bins = vec![(0_u32, 0.0_f32); offsets.len()];
     // What falls to a bin and to the one above, side by side.
     let mut votes = vec![[0.0_f32; 2]; floor_index(2.0 * middle) + 2];
-    let last = i32::try_from(votes.len() - 1).unwrap_or(i32::MAX);
+    let last = votes.len() - 1;
     (0..ANGLES)
         .map(|index| {
             let (sin, cos) = (index as f64 * PI / ANGLES as f64).sin_cos();
@@ -73,12 +77,12 @@ fn power(points: &[WallPoint], bin: f64) -> Vec<f64> {
             // Apart from the votes, for the places of several points are found at once.
             for (bin, [x, y]) in bins.iter_mut().zip(&offsets) {
                 let rho = x * cos + y * sin + middle;
-                let lower = (rho as i32).clamp(0, last);
-                *bin = (lower.cast_unsigned(), rho - lower as f32);
+                let whole = rho - 0.5 + WHOLE;
+                *bin = (whole.to_bits() - WHOLE.to_bits(), rho - (whole - WHOLE));
             }
             votes.fill([0.0; 2]);
             for &(lower, upper) in &bins {
-                let [low, high] = &mut votes[lower as usize];
+                let [low, high] = &mut votes[(lower as usize).min(last)];
                 *low += 1.0 - upper;
                 *high += upper;
             }

@@ -21,7 +21,7 @@ pub(crate) fn halo(cell: f64) -> usize {
 /// become unknown.
 pub(crate) fn visible_walls(band: &mut [State], width: usize, cell: f64) {
     erase_specks(band, width, speck(cell));
-    let depth = depth(band, width);
+    let depth = depth(band, width, deepest(cell));
     let deepest = u8::try_from(3 * deepest(cell) + 1).unwrap_or(u8::MAX - 1);
     let size = [width, band.len() / width];
     let is_behind = |at: usize| {
@@ -47,50 +47,55 @@ fn speck(cell: f64) -> usize {
     floor_index(SPECK_M / cell).max(1)
 }
 
-/// Thirds of cells to the nearest free cell: 0 in free cells, cut off at 255. Unknown cells lead
-/// as well as occupied ones.
-fn depth(band: &[State], width: usize) -> Vec<u8> {
+/// Thirds of cells to the nearest free cell: 0 in free cells, cut off at 255, and maybe too large
+/// beyond `reach` cells. Unknown cells lead as well as occupied ones.
+fn depth(band: &[State], width: usize, reach: usize) -> Vec<u8> {
     let height = band.len() / width;
     let mut depth: Vec<u8> =
         band.iter().map(|&cell| if cell == State::Free { 0 } else { u8::MAX }).collect();
+    let mut room = Vec::with_capacity(width);
     for row in 0..height {
         let (before, here) = depth.split_at_mut(row * width);
         let here = &mut here[..width];
         if row > 0 {
             lower_from(here, &before[(row - 1) * width..]);
         }
-        lower_along(here.iter_mut());
+        lower_along(here, reach, &mut room);
     }
     for row in (0..height).rev() {
         let (here, after) = depth[row * width..].split_at_mut(width);
         if row + 1 < height {
             lower_from(here, &after[..width]);
         }
-        lower_along(here.iter_mut().rev());
+        lower_along(here, reach, &mut room);
     }
     depth
 }
 
 /// Lowers a row to what leads to it from the row beside it.
 fn lower_from(row: &mut [u8], beside: &[u8]) {
-    let lower = |cell: &mut u8, from: u8, step: u8| *cell = (*cell).min(from.saturating_add(step));
-    for (cell, &from) in row.iter_mut().zip(beside) {
-        lower(cell, from, SIDE);
-    }
-    for (cell, &from) in row.iter_mut().skip(1).zip(beside) {
-        lower(cell, from, CORNER);
-    }
-    for (cell, &from) in row.iter_mut().zip(&beside[1..]) {
-        lower(cell, from, CORNER);
+    lower(row, beside, SIDE);
+    lower(&mut row[1..], beside, CORNER);
+    lower(row, &beside[1..], CORNER);
+}
+
+/// Lowers every cell of a row to what leads to it along the row from up to `reach` cells away: from
+/// one cell, then from two, four and so on, all at once, where each would wait for the one before.
+fn lower_along(row: &mut [u8], reach: usize, room: &mut Vec<u8>) {
+    let mut step = 1;
+    while step <= reach && step < row.len() {
+        room.clear();
+        room.extend_from_slice(row);
+        let rise = u8::try_from(step).map_or(u8::MAX, |step| step.saturating_mul(SIDE));
+        lower(&mut row[step..], room, rise);
+        lower(row, &room[step..], rise);
+        step *= 2;
     }
 }
 
-/// Lowers every cell of a row to what leads to it from the one before.
-fn lower_along<'a>(row: impl Iterator<Item = &'a mut u8>) {
-    let mut from = u8::MAX;
-    for cell in row {
-        from = from.saturating_add(SIDE).min(*cell);
-        *cell = from;
+fn lower(row: &mut [u8], from: &[u8], rise: u8) {
+    for (cell, &from) in row.iter_mut().zip(from) {
+        *cell = (*cell).min(from.saturating_add(rise));
     }
 }
 
@@ -147,4 +152,37 @@ fn neighbours(
             .map(move |near_column| near_row * width + near_column)
             .filter(move |&near| near != row * width + column)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{CORNER, SIDE, depth};
+    use crate::state::State;
+    use proptest::prelude::{prop, prop_assert, proptest};
+
+    proptest! {
+        #[test]
+        fn depth_is_the_shortest_way_to_a_free_cell_up_to_its_reach(
+            width in 1_usize..40, height in 1_usize..20, reach in 1_usize..30,
+            free in prop::collection::vec(0_usize..40 * 20, 0..4),
+        ) {
+            let mut band = vec![State::Wall; width * height];
+            for cell in free {
+                band[cell % (width * height)] = State::Free;
+            }
+            let found = depth(&band, width, reach);
+            let step = |at: usize, to: usize| {
+                let [across, up] = [(at % width).abs_diff(to % width), (at / width).abs_diff(to / width)];
+                let corners = across.min(up);
+                usize::from(SIDE) * (across.max(up) - corners) + usize::from(CORNER) * corners
+            };
+            let most = usize::from(SIDE) * reach + 1;
+            for (at, &found) in found.iter().enumerate() {
+                let to_free = (0..band.len()).filter(|&to| band[to] == State::Free);
+                let brute = to_free.map(|to| step(at, to)).min().unwrap_or(usize::MAX);
+                let found = usize::from(found);
+                prop_assert!(found == brute || found > most && brute > most, "{found} {brute}");
+            }
+        }
+    }
 }

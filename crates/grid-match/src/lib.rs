@@ -40,9 +40,10 @@
 //!
 //! How it works: Hough spectra of the walls suggest a few rotations; for each and its half turn,
 //! one complex Fourier transform scores every translation by walls and free space on each other;
-//! the best candidates follow the distance fields of both maps by robust Gauss–Newton; what is left
-//! is scored in metres of wall, for and against. [`PreparedMap`] keeps what is computed of one map.
-//! The order of the two maps, their origins and the number of threads do not matter.
+//! the best candidates follow the distance fields of both maps by robust Gauss–Newton, and where
+//! they came to rest beside the best place, parts of a map that let go show the way; what is left is
+//! scored in metres of wall, for and against. [`PreparedMap`] keeps what is computed of one map. The
+//! order of the two maps, their origins and the number of threads do not matter.
 
 mod bend;
 mod bounds;
@@ -68,6 +69,7 @@ mod report;
 mod rotation;
 mod score;
 mod search;
+mod settle;
 mod sides;
 mod signature;
 mod smooth;

@@ -20,6 +20,7 @@ use crate::refine::polish;
 use crate::report::{Hypothesis, MatchReport};
 use crate::score::NOT_COMPARABLE;
 use crate::search::{Fit, OUT_OF_SIGHT, Search, evaluate_in_full, moved_in_full};
+use crate::settle::settled;
 use crate::weights::WEIGHTS;
 use crate::work::Work;
 
@@ -127,15 +128,20 @@ fn search(
     let found: Vec<(Fit, f64)> = found.into_iter().zip(likely).collect();
     let found = each(&found, |(fit, probability)| {
         let start_first_from_second = fit.first_from_second;
+        let is_worth_it = *probability >= WORTH_A_CLOSER_LOOK;
         let mut first_from_second = start_first_from_second;
-        if *probability >= WORTH_A_CLOSER_LOOK {
+        if is_worth_it {
             first_from_second = polish(first, second, start_first_from_second);
         }
         // What is reported is what was polished, so it is what has to be weighed and bounded.
         if !contains(&first_from_second) {
             first_from_second = start_first_from_second;
         }
-        polished.step().map(|()| evaluate_in_full(first, second, first_from_second))
+        let mut fit = evaluate_in_full(first, second, first_from_second);
+        if is_worth_it {
+            fit = settled(first, second, fit, contains);
+        }
+        polished.step().map(|()| fit)
     })?;
     let mut found = modes(found, second.centre);
     found.retain(|fit| fit.score > NOT_COMPARABLE);

@@ -22,7 +22,7 @@ const COARSE_POINTS: usize = 400;
 /// Scales of the last refinement, metres, none below a cell.
 const FINE_SCALES: [f64; 5] = [0.2, 0.14, 0.1, 0.08, 0.08];
 /// Wall points of each map in it, and in the score that ranks what it ends in.
-const FINE_POINTS: usize = 1000;
+pub(crate) const FINE_POINTS: usize = 1000;
 /// Wall points of each map in the score that is reported.
 const ALL_POINTS: usize = 3000;
 /// A pose whose score is so far below that of the best is not looked at any closer, nor listed; a

@@ -3,7 +3,7 @@
 use grid_match::{MatchParams, match_maps};
 use ogm_sim::{
     FloorKind, FloorPlan, LidarParams, MappingParams, PairParams, Relation, SimulatedPair,
-    labelled_pair, simulate_pair,
+    bent_pair, labelled_pair, simulate_pair,
 };
 
 use crate::world::found;
@@ -39,6 +39,18 @@ fn rooms_on_both_sides_of_their_common_walls_meet() {
         let truth = pair.truth.unwrap().target_from_source;
         let error = truth.between(&found(&pair.target, &pair.source));
         assert!(error.translation().norm() < 0.1, "{kind:?} {seed}: {error:?}");
+    }
+}
+
+#[test]
+fn a_hall_is_not_left_a_step_along_its_shelves() {
+    for seed in [422, 446, 465] {
+        let pair = bent_pair(FloorKind::Hall, [0.0, 0.0], seed).unwrap();
+        let truth = pair.truth.unwrap();
+        let target_from_source = found(&pair.target, &pair.source);
+        let middle = truth.shared_centre;
+        let off = target_from_source * middle - truth.target_from_source * middle;
+        assert!(off.norm() < 0.05, "{seed}: {off:?}");
     }
 }
 

@@ -90,8 +90,8 @@ impl Corners {
     }
 }
 
-/// The whole part of a number that is not negative, up to that of a `u32`, for that is a third of
-/// the instructions.
+/// The whole part of a number that is not negative, of at most 32 bits: more take a processor
+/// without the instruction for it several times as long.
 #[inline]
 #[expect(
     clippy::cast_possible_truncation,

@@ -18,8 +18,8 @@ const MOST_OF_BLOCKS: usize = 3000;
 /// Angles of the window whose minimum counts as no direction at all.
 const WINDOW: usize = 91;
 
-/// Added to a number from 0 to this, it leaves the nearest whole number in the lowest bits: many at
-/// once, where a conversion has to look out for what fits no integer.
+/// Added to a number from 0 to this, it leaves the nearest whole number in the lowest bits; for many
+/// numbers at once, where a conversion would look out for what fits no integer.
 const WHOLE: f32 = 8_388_608.0;
 
 /// Strength of every wall direction over half a turn, of mean 0 and norm 1, or all zero.
@@ -78,7 +78,7 @@ fn power(points: &[WallPoint], bin: f64) -> Vec<f64> {
             for (bin, [x, y]) in bins.iter_mut().zip(&offsets) {
                 let rho = x * cos + y * sin + middle;
                 let whole = rho - 0.5 + WHOLE;
-                *bin = (whole.to_bits() - WHOLE.to_bits(), rho - (whole - WHOLE));
+                *bin = (whole.to_bits().wrapping_sub(WHOLE.to_bits()), rho - (whole - WHOLE));
             }
             votes.fill([0.0; 2]);
             for &(lower, upper) in &bins {

@@ -38,12 +38,10 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! How it works: Hough spectra of the walls suggest a few rotations; for each and its half turn,
-//! one complex Fourier transform scores every translation by walls and free space on each other;
-//! the best candidates follow the distance fields of both maps by robust Gauss–Newton, and where
-//! they came to rest beside the best place, parts of a map that let go show the way; what is left is
-//! scored in metres of wall, for and against. [`PreparedMap`] keeps what is computed of one map. The
-//! order of the two maps, their origins and the number of threads do not matter.
+//! How it works: Hough spectra suggest rotations; for each and its half turn, one complex Fourier
+//! transform scores every translation; the best follow the distance fields of both maps by robust
+//! Gauss–Newton, and go where parts that let go show the way; what is left is scored in metres of
+//! wall. [`PreparedMap`] keeps what is computed of one map. Order, origins and threads do not matter.
 
 mod bend;
 mod bounds;

@@ -1,4 +1,4 @@
-//! The pose that parts of a map have slid to.
+//! A pose that came to rest beside its place goes there, led by a part of the map that let go.
 
 use nalgebra::Vector2;
 use ogm_core::Se2;
@@ -15,9 +15,9 @@ const APART_M: f64 = 0.1;
 /// `fit`, or the pose beside it that shows more of the same walls.
 ///
 /// A refinement weighs only what is near, so it can come to rest a wall's thickness or a few
-/// decimetres off, along walls that go on: the parts of the map that hold it there do not let go,
-/// and parts that may give way hide it. Where the whole map fits better with the shift of one such
-/// part, as one piece and after a polish, that is the pose.
+/// decimetres off, along walls that go on; and the score does not show it, for there parts may give
+/// way. Where all of the map, as one piece, fits better with the shift of one part, that is the pose,
+/// unless its score is lower.
 pub(crate) fn settled(
     first: &PreparedMap,
     second: &PreparedMap,

@@ -23,8 +23,9 @@ fn criterion(id: &str, statement: String, ours: f64, pass: bool) -> Criterion {
 pub(super) fn criteria(judged: &[Judged], quick: bool) -> Vec<Criterion> {
     let bent = merged(judged, |one| one.bend > 0.0);
     let still = merged(judged, |one| one.bend == 0.0);
-    let all = median(&falls(&bent, |_| true)).unwrap_or(f64::NAN);
-    let applied = median(&falls(&bent, |bent| bent.is_applied)).unwrap_or(f64::NAN);
+    let all = median(&falls(&bent, |_| true, |bent| bent.after_m)).unwrap_or(f64::NAN);
+    let applied =
+        median(&falls(&bent, |bent| bent.is_applied, |bent| bent.after_m)).unwrap_or(f64::NAN);
     let growth = worst_growth(&bent).unwrap_or(f64::NAN);
     let moved = still.iter().map(|(one, bent)| bent.moved_m / one.cell).reduce(f64::max);
     let moved = moved.unwrap_or(f64::NAN);

@@ -22,6 +22,8 @@ pub(super) struct Bent {
     /// Residuals, metres.
     pub(super) before_m: f64,
     pub(super) after_m: f64,
+    /// By a deformation that is told where walls belong.
+    pub(super) known_m: f64,
     /// Shares of doubled wall.
     pub(super) doubled_before: f64,
     pub(super) doubled_after: f64,

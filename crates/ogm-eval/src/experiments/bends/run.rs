@@ -12,6 +12,7 @@ use ogm_merge::{
 use ogm_sim::{FloorKind, LabelledPair, SimError, bent_pair};
 use rayon::prelude::*;
 
+use super::known::{self, Shown, residual};
 use super::record::{Bent, Judged, Real};
 use crate::cases::map_pair::{MapPair, read_pairs};
 use crate::judge::Truth;
@@ -65,25 +66,25 @@ fn judge(bend: f64, pair: &LabelledPair) -> anyhow::Result<Option<Judged>> {
     let Some(target) = NearestWall::new(&pair.target, &thresholds) else { return Ok(Some(judged)) };
     let is_applied = bent.straight.is_some();
     let moved = |wall: Point2<f64>| if is_applied { bent.report.warp.apply(wall) } else { wall };
-    let (mut before, mut after, mut count) = (0.0, 0.0, 0.0);
-    for wall in pair.source.occupied_points(&thresholds) {
-        let Some(belongs) = in_target.in_target(wall) else { continue };
-        if (target.nearest_to(belongs) - belongs).norm() > SAME_CELLS * cell {
-            continue;
-        }
-        before += (pose * wall - belongs).norm_squared();
-        after += (pose * moved(wall) - belongs).norm_squared();
-        count += 1.0;
-    }
-    if count > 0.0 {
+    let walls = pair.source.occupied_points(&thresholds).into_iter();
+    let shown: Vec<Shown> = walls
+        .filter_map(|wall| {
+            let in_target = in_target.in_target(wall)?;
+            let is_shown = (target.nearest_to(in_target) - in_target).norm() <= SAME_CELLS * cell;
+            is_shown.then(|| Shown { wall, belongs: pose.inverse() * in_target })
+        })
+        .collect();
+    if !shown.is_empty() {
+        let known = known::warp(&shown)?;
         let share = |map: &OccupancyGrid| {
             let (doubled, walls) = doubled(&target, map, &pose, cell);
             doubled as f64 / walls.max(1) as f64
         };
         judged.bent = Some(Bent {
             is_applied,
-            before_m: f64::sqrt(before / count),
-            after_m: f64::sqrt(after / count),
+            before_m: residual(&shown, |wall| wall),
+            after_m: residual(&shown, moved),
+            known_m: residual(&shown, |wall| known.apply(wall)),
             doubled_before: share(&pair.source),
             doubled_after: share(bent.straight.as_ref().unwrap_or(&pair.source)),
             moved_m: if is_applied { bent.report.rms_m } else { 0.0 },

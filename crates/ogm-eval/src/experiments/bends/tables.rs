@@ -7,14 +7,16 @@ use super::run::BENDS;
 use crate::report::Table;
 use crate::stats::median;
 
-const HEADER: [&str; 10] = [
+const HEADER: [&str; 12] = [
     "",
     "pairs",
     "merged rightly",
     "made straight",
     "residual before, m",
     "after, m",
+    "known, m",
     "fall where made straight, %",
+    "known, %",
     "worst growth, cells",
     "doubled before, %",
     "after, %",
@@ -54,7 +56,8 @@ fn row(name: &str, judged: &[Judged], holds: impl Fn(&Judged) -> bool) -> Vec<St
         let values: Vec<f64> = merged.iter().map(|(_, bent)| value(bent)).collect();
         median(&values).map_or_else(|| "–".to_owned(), |middle| format!("{middle:.digits$}"))
     };
-    let falls = falls(&merged, |bent| bent.is_applied);
+    let made = falls(&merged, |bent| bent.is_applied, |bent| bent.after_m);
+    let known = falls(&merged, |bent| bent.is_applied, |bent| bent.known_m);
     let text = |value: Option<f64>, digits: usize| {
         value.map_or_else(|| "–".to_owned(), |value| format!("{value:.digits$}"))
     };
@@ -65,17 +68,23 @@ fn row(name: &str, judged: &[Judged], holds: impl Fn(&Judged) -> bool) -> Vec<St
         applied.to_string(),
         middle(|bent| bent.before_m, 3),
         middle(|bent| bent.after_m, 3),
-        text(median(&falls), 0),
+        middle(|bent| bent.known_m, 3),
+        text(median(&made), 0),
+        text(median(&known), 0),
         text(worst_growth(&merged), 2),
         middle(|bent| 100.0 * bent.doubled_before, 1),
         middle(|bent| 100.0 * bent.doubled_after, 1),
     ]
 }
 
-/// By how much residuals fell, percent.
-pub(super) fn falls(merged: &[(&Judged, Bent)], holds: impl Fn(&Bent) -> bool) -> Vec<f64> {
+/// By how much residuals fell to what `left` says, percent.
+pub(super) fn falls(
+    merged: &[(&Judged, Bent)],
+    holds: impl Fn(&Bent) -> bool,
+    left: impl Fn(&Bent) -> f64,
+) -> Vec<f64> {
     let holding = merged.iter().filter(|(_, bent)| holds(bent));
-    holding.map(|(_, bent)| 100.0 * (1.0 - bent.after_m / bent.before_m.max(1e-9))).collect()
+    holding.map(|(_, bent)| 100.0 * (1.0 - left(bent) / bent.before_m.max(1e-9))).collect()
 }
 
 /// The most by which a residual grew, cells.

@@ -1,6 +1,6 @@
 //! What X7 must show.
 
-use super::record::{Judged, count, to_merge};
+use super::record::{Judged, cells_off, count, to_merge};
 use ogm_sim::MapStyle;
 
 use crate::report::Criterion;
@@ -18,6 +18,7 @@ struct Floors {
     found: f64,
     plain: f64,
     falsely: f64,
+    near: f64,
     cells: f64,
     degrees: f64,
     bent: f64,
@@ -28,6 +29,7 @@ const FULL: Floors = Floors {
     found: 65.0,
     plain: 75.0,
     falsely: 0.5,
+    near: 98.0,
     cells: 0.25,
     degrees: 0.05,
     bent: 50.0,
@@ -40,6 +42,7 @@ const QUICK: Floors = Floors {
     found: 40.0,
     plain: 45.0,
     falsely: 1.5,
+    near: 95.0,
     cells: 0.35,
     degrees: 0.1,
     bent: 15.0,
@@ -120,18 +123,25 @@ pub(super) fn criteria(judged: &[Judged], quick: bool) -> Vec<Criterion> {
         bent.len(),
         &|ours| ours >= least_bent,
     ));
-    criteria.extend(accuracy(&plain, &floors));
+    let cells = cells_off(judged, |_| true);
+    let near = cells.iter().filter(|&&cells| cells <= 1.0).count();
+    let least_near = floors.near;
+    criteria.push(criterion(
+        "near",
+        format!("of poses merged rightly, within a cell ≥ {least_near} %, exact truth"),
+        near,
+        cells.len(),
+        &|ours| ours >= least_near,
+    ));
+    criteria.extend(accuracy(&cells, &plain, &floors));
     criteria
 }
 
 /// On pairs whose truth is exact.
-fn accuracy(pairs: &[&Judged], floors: &Floors) -> [Criterion; 2] {
-    let exact = || pairs.iter().filter(|one| one.exact && one.is_merged() && one.is_right());
-    let of = |error: fn(&Judged) -> Option<f64>| -> Vec<f64> {
-        exact().filter_map(|one| error(one)).collect()
-    };
-    let cells = of(|one| one.best.map(|best| best.error.displacement / one.cell));
-    let degrees = of(|one| one.best.map(|best| best.error.turn.to_degrees()));
+fn accuracy(cells: &[f64], pairs: &[&Judged], floors: &Floors) -> [Criterion; 2] {
+    let exact = pairs.iter().filter(|one| one.exact && one.is_merged() && one.is_right());
+    let degrees: Vec<f64> =
+        exact.filter_map(|one| Some(one.best?.error.turn.to_degrees())).collect();
     let criterion = |id: &str, statement: String, errors: &[f64], limit: f64| {
         let ours = median(errors).unwrap_or(f64::NAN);
         Criterion {
@@ -146,7 +156,7 @@ fn accuracy(pairs: &[&Judged], floors: &Floors) -> [Criterion; 2] {
     let of_cells = format!("median error, exact truth ≤ {} cell", floors.cells);
     let of_degrees = format!("median turn, exact truth ≤ {}°", floors.degrees);
     [
-        criterion("cells", of_cells, &cells, floors.cells),
+        criterion("cells", of_cells, cells, floors.cells),
         criterion("degrees", of_degrees, &degrees, floors.degrees),
     ]
 }

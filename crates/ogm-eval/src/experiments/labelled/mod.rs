@@ -36,6 +36,7 @@ pub(crate) fn measure(options: &Options) -> anyhow::Result<Measured> {
             tables::by_kind(&judged, drawn),
             tables::by_overlap(&judged),
             tables::by_bend(&judged),
+            tables::accuracy(&judged),
             tables::by_style(&judged),
             tables::to_refuse(&judged),
             curve,

@@ -66,6 +66,14 @@ pub(super) fn to_merge(judged: &[Judged], holds: impl Fn(&Judged) -> bool) -> Ve
     judged.iter().filter(|one| one.relation == Relation::Overlapping && holds(one)).collect()
 }
 
+/// How far the poses of right merges are off, cells of the coarser map: of pairs whose truth is exact
+/// and whose floor does not repeat.
+pub(super) fn cells_off(judged: &[Judged], holds: impl Fn(&Judged) -> bool) -> Vec<f64> {
+    let exact = to_merge(judged, |one| one.exact && !one.kind.repeats() && holds(one));
+    let merged = exact.into_iter().filter(|one| one.is_merged() && one.is_right());
+    merged.filter_map(|one| Some(one.best?.error.displacement / one.cell)).collect()
+}
+
 /// The row of a pair.
 pub(super) fn row(judged: &Judged) -> Run {
     let result = match (&judged.refusal, judged.best, judged.overlap) {

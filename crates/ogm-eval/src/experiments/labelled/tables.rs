@@ -2,10 +2,10 @@
 
 use ogm_sim::{FloorKind, MapStyle, Relation};
 
-use super::record::{Judged, count, to_merge};
+use super::record::{Judged, cells_off, count, to_merge};
 use crate::judge::NEES_95;
 use crate::report::Table;
-use crate::stats::wilson_ci95;
+use crate::stats::{median, wilson_ci95};
 
 const BANDS: [[f64; 2]; 5] = [[0.15, 0.25], [0.25, 0.35], [0.35, 0.5], [0.5, 0.7], [0.7, 1.0]];
 
@@ -121,6 +121,32 @@ pub(super) fn by_bend(judged: &[Judged]) -> Table {
                 .to_owned(),
         header,
         rows: rows.to_vec(),
+    }
+}
+
+/// How near the poses of merges lie that count as right, where the truth is exact.
+pub(super) fn accuracy(judged: &[Judged]) -> Table {
+    let row = |name: &str, holds: &dyn Fn(FloorKind) -> bool| {
+        let cells = cells_off(judged, |one| holds(one.kind));
+        let near = cells.iter().filter(|&&cells| cells <= 1.0).count();
+        let text = |cells: Option<f64>| {
+            cells.map_or_else(|| "–".to_owned(), |cells| format!("{cells:.2}"))
+        };
+        let worst = cells.iter().copied().reduce(f64::max);
+        let count = cells.len().to_string();
+        vec![name.to_owned(), count, text(median(&cells)), share(near, cells.len()), text(worst)]
+    };
+    let kinds = FloorKind::ALL.into_iter().filter(|kind| !kind.repeats());
+    let mut rows: Vec<Vec<String>> =
+        kinds.map(|kind| row(kind.name(), &|other| other == kind)).collect();
+    rows.push(row("all", &|_| true));
+    let header = ["floor", "merged rightly", "median, cells", "within a cell", "worst, cells"];
+    Table {
+        caption: "Errors of the poses of what was merged rightly, where no map is bent and the \
+                  truth is exact, in cells of the coarser map; floors that do not repeat."
+            .to_owned(),
+        header: header.map(str::to_owned).to_vec(),
+        rows,
     }
 }
 

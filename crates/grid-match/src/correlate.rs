@@ -7,6 +7,7 @@ use rustfft::{Fft, FftPlanner};
 
 use crate::correlation_planes::CorrelationPlanes;
 use crate::parallel::both;
+use crate::surface::{Part, Surface};
 
 /// One map transformed, to be correlated with many.
 pub(crate) struct Correlator {
@@ -27,14 +28,6 @@ pub(crate) struct Workspace {
 
 /// How the lines of a transform are gone through.
 type Lines = fn(&dyn Fft<f32>, &mut [Complex32], &mut Vec<Complex32>);
-
-/// The score of every translation, in coarse cells; negative ones wrap around.
-pub(crate) struct Surface<'a> {
-    pub(crate) columns: usize,
-    pub(crate) rows: usize,
-    scores: &'a [Complex32],
-    score: fn(&Complex32) -> f32,
-}
 
 impl Correlator {
     /// A correlator for `first` with maps of about `width` × `height` coarse cells, which must
@@ -108,19 +101,21 @@ impl Correlator {
         transpose::transpose(turned, work, self.rows, self.columns);
         one_by_one(&*self.along_rows[1], work, scratch);
         let scores: &[Complex32] = work;
-        let parts: [fn(&Complex32) -> f32; 2] = [|both| both.re, |both| both.im];
-        parts.map(|score| Surface { columns: self.columns, rows: self.rows, scores, score })
+        let (columns, rows) = (self.columns, self.rows);
+        [Part::Real, Part::Imaginary].map(|part| Surface { columns, rows, scores, part })
     }
 
     /// The transform of `map`, transposed, into what is turned in `space`.
     fn transform(&self, map: &CorrelationPlanes, space: &mut Workspace, lines: Lines) {
         let Workspace { work, turned, scratch } = space;
-        work.fill(Complex32::default());
+        let (filled, empty) = work.split_at_mut(map.height * self.columns);
         let rows = map.packed.chunks_exact(map.width);
-        for (output, row) in work.chunks_exact_mut(self.columns).zip(rows) {
-            output[..map.width].copy_from_slice(row);
+        for (output, row) in filled.chunks_exact_mut(self.columns).zip(rows) {
+            let (known, beyond) = output.split_at_mut(map.width);
+            known.copy_from_slice(row);
+            beyond.fill(Complex32::default());
         }
-        let filled = &mut work[..map.height * self.columns];
+        empty.fill(Complex32::default());
         lines(&*self.along_rows[0], filled, scratch);
         transpose::transpose(work, turned, self.columns, self.rows);
         lines(&*self.along_columns[0], turned, scratch);
@@ -139,57 +134,6 @@ fn in_halves(fft: &dyn Fft<f32>, lines: &mut [Complex32], scratch: &mut Vec<Comp
     both(|| one_by_one(fft, low, scratch), || one_by_one(fft, high, &mut own));
 }
 
-impl Surface<'_> {
-    /// Unscaled: the inverse transform multiplies by the number of cells.
-    pub(crate) fn score(&self, column: usize, row: usize) -> f32 {
-        (self.score)(&self.scores[row * self.columns + column])
-    }
-
-    /// The `most` highest local maxima above zero of those that are wanted, highest first: column,
-    /// row and score in coarse cells of wall.
-    pub(crate) fn maxima(
-        &self,
-        most: usize,
-        is_wanted: impl Fn(usize, usize) -> bool,
-    ) -> Vec<(usize, usize, f32)> {
-        let (columns, rows) = (self.columns, self.rows);
-        // Below the lowest of enough that were found, nothing has to be looked at closely.
-        let mut floor = 0.0;
-        let mut found: Vec<(usize, usize, f32)> = Vec::new();
-        for row in 0..rows {
-            let around = |at: usize, count: usize| [(at + count - 1) % count, (at + 1) % count];
-            let [below, above] = around(row, rows);
-            let here = &self.scores[row * columns..][..columns];
-            for (column, here) in here.iter().map(self.score).enumerate() {
-                if here <= floor {
-                    continue;
-                }
-                let [left, right] = around(column, columns);
-                let is_peak = here > self.score(left, row)
-                    && here >= self.score(right, row)
-                    && [left, column, right].iter().all(|&near| {
-                        here > self.score(near, below) && here >= self.score(near, above)
-                    });
-                if is_peak && is_wanted(column, row) {
-                    found.push((column, row, here));
-                    if found.len() == 4 * most {
-                        keep_highest(&mut found, most);
-                        floor = found.last().map_or(0.0, |&(.., lowest)| lowest);
-                    }
-                }
-            }
-        }
-        keep_highest(&mut found, most);
-        let scale = 1.0 / (columns * rows) as f32;
-        found.into_iter().map(|(column, row, score)| (column, row, score * scale)).collect()
-    }
-}
-
-fn keep_highest(maxima: &mut Vec<(usize, usize, f32)>, most: usize) {
-    maxima.sort_by(|a, b| b.2.total_cmp(&a.2));
-    maxima.truncate(most);
-}
-
 /// The least length not below `least` whose only factors are 2, 3 and 5.
 fn fast_length(least: usize) -> usize {
     let smooth = |mut length: usize| {
@@ -205,10 +149,10 @@ fn fast_length(least: usize) -> usize {
 
 #[cfg(test)]
 mod tests {
-    use super::{Correlator, Surface};
+    use super::Correlator;
     use crate::correlation_planes::CorrelationPlanes;
     use nalgebra::Vector2;
-    use proptest::prelude::{Strategy, prop, prop_assert, prop_assert_eq, proptest};
+    use proptest::prelude::{Strategy, prop, prop_assert, proptest};
     use rustfft::num_complex::Complex32;
 
     fn planes() -> impl Strategy<Value = CorrelationPlanes> {
@@ -234,7 +178,7 @@ mod tests {
         ) {
             let size = [second.width, second.height];
             let (correlator, mut space) = Correlator::new(&first, size, [0, 0], 0);
-            let [surface, half] = correlator.correlate(&second, &mut space);
+            let [surface, _] = correlator.correlate(&second, &mut space);
             let (columns, rows) = (surface.columns, surface.rows);
             let scale = 1.0 / (columns * rows) as f32;
             for row in 0..rows {
@@ -248,34 +192,12 @@ mod tests {
                             of_half += at(&first, opposite[0] % columns, opposite[1] % rows) * own;
                         }
                     }
-                    for (surface, sum) in [(&surface, sum), (&half, of_half)] {
-                        let found = surface.score(column, row) * scale;
+                    let both = surface.scores[row * columns + column] * scale;
+                    for (found, sum) in [(both.re, sum), (both.im, of_half)] {
                         prop_assert!((found - sum.re).abs() < 1e-4, "{found} not {}", sum.re);
                     }
                 }
             }
-        }
-    }
-
-    proptest! {
-        #[test]
-        fn the_highest_maxima_of_those_wanted_are_found(
-            columns in 2_usize..14, rows in 2_usize..14, most in 1_usize..4, refused in 0_usize..4,
-            heights in prop::collection::vec(-3_i8..9, 13 * 13),
-        ) {
-            let heights = heights[..columns * rows].iter().map(|&height| f32::from(height));
-            let scores: Vec<Complex32> = heights.map(Complex32::from).collect();
-            let surface = Surface { columns, rows, scores: &scores, score: |score| score.re };
-            let is_wanted = |column: usize, row: usize| (column + row) % 4 != refused;
-            let found = surface.maxima(most, is_wanted);
-            let all = surface.maxima(columns * rows, |_, _| true);
-            let wanted = all.into_iter().filter(|&(column, row, _)| is_wanted(column, row));
-            let expected: Vec<_> = wanted.take(most).collect();
-            let heights = |maxima: &[(usize, usize, f32)]| -> Vec<f32> {
-                maxima.iter().map(|&(.., height)| height).collect()
-            };
-            prop_assert_eq!(heights(&found), heights(&expected));
-            prop_assert!(found.iter().all(|&(column, row, _)| is_wanted(column, row)));
         }
     }
 }

@@ -71,9 +71,9 @@ impl FreeShare {
         Self { cell, width, height, share }
     }
 
-    /// Bilinear, zero outside.
-    fn at(&self, point: Point2<f64>) -> f32 {
-        let (x, y) = (point.x / self.cell - 0.5, point.y / self.cell - 0.5);
+    /// Bilinear, zero outside; `place` in cells from the middle of the first.
+    fn at(&self, place: Vector2<f64>) -> f32 {
+        let (x, y) = (place.x, place.y);
         let inside =
             x >= 0.0 && y >= 0.0 && x < (self.width - 1) as f64 && y < (self.height - 1) as f64;
         if !inside {
@@ -101,11 +101,11 @@ impl CorrelationPlanes {
         let near_wall = grown(&walls, width);
         let walls = smooth_rows_and_columns(walls, width, 1.0);
         let axes = Axes::new(&WEIGHTS, side);
-        let step = turn.inverse() * Vector2::new(cell, 0.0);
+        let step = turn.inverse() * Vector2::x();
         let mut packed = Vec::with_capacity(width * height);
         for row in 0..height {
             let corner = origin + Vector2::new(0.5, row as f64 + 0.5) * cell;
-            let start = turn.inverse() * Point2::from(corner);
+            let start = turn.inverse() * corner / cell - Vector2::repeat(0.5);
             for column in 0..width {
                 let at = row * width + column;
                 let free = if near_wall[at] { 0.0 } else { free.at(start + step * column as f64) };

@@ -1,8 +1,8 @@
 //! Finds the rigid transform between two occupancy grid maps, from nothing but the maps.
 //!
-//! [`match_maps`] needs no start pose and no tags. It ranks every pose that fits, each with a
-//! probability and a covariance, and believes the best only if its probability reaches
-//! [`MatchParams::accept`]; otherwise it says what is missing.
+//! [`match_maps`] needs no start pose and no tags. It ranks every pose that fits, with probability and
+//! covariance, and believes the best if that reaches [`MatchParams::accept`]; otherwise it says what
+//! is missing. [`PreparedMap`] keeps what is computed of one map.
 //!
 //! ```
 //! use grid_match::{MatchParams, match_maps};
@@ -38,10 +38,9 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! How it works: Hough spectra suggest rotations; for each and its half turn, one complex Fourier
-//! transform scores every translation; the best follow the distance fields of both maps by robust
-//! Gauss–Newton, and go where parts that let go show the way; what is left is scored in metres of
-//! wall. [`PreparedMap`] keeps what is computed of one map. Order, origins and threads do not matter.
+//! Hough spectra suggest rotations; at each and its half turn a Fourier transform scores every
+//! translation; the best follow the distance fields of both maps, and go where parts that let go
+//! lead; what is left is scored in metres of wall. Order, origins and threads do not matter.
 
 mod bend;
 mod bounds;
@@ -73,6 +72,7 @@ mod signature;
 mod smooth;
 mod spectrum;
 mod state;
+mod surface;
 mod surroundings;
 mod terms;
 mod translation;

@@ -6,12 +6,13 @@ use nalgebra::{Point2, Vector2};
 use ogm_core::{Cancelled, Progress, Se2, Steps, wrap_angle};
 
 use crate::bounds::Bounds;
-use crate::correlate::{Correlator, Surface};
+use crate::correlate::Correlator;
 use crate::correlation_planes::{CorrelationPlanes, FreeShare, Side, turned_box, turned_lattice};
 use crate::lattice::floor_index;
 use crate::parallel::{both, each_with};
 use crate::prepare::PreparedMap;
 use crate::rotation;
+use crate::surface::Surface;
 use crate::work::Work;
 
 /// Peaks kept at one rotation.

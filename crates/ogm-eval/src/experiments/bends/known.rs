@@ -1,4 +1,4 @@
-//! What a smooth deformation could do, if it were known where every wall belongs.
+//! What the deformation could do if it were known where every wall belongs.
 
 use std::collections::BTreeMap;
 
@@ -11,7 +11,8 @@ const SIDE_M: f64 = 2.0;
 /// How surely their motions are known, metres and radians.
 const SIGMA: (f64, f64) = (0.02, 0.03);
 
-/// A wall of the source, and where it is where the target shows it; in the frame of the source.
+/// A wall of the source and the place where it would lie as the target shows it, both in the frame of
+/// the source.
 #[derive(Clone, Copy)]
 pub(super) struct Shown {
     pub(super) wall: Point2<f64>,

@@ -25,8 +25,8 @@ is put and where the target shows them, which is the true floor where the target
 Doubled is the share of the source's wall with a wall of the target within 0.5 m but none within 1.5 \
 cells. After is what `auto` gives: where held-out walls do not say that a bend is better, the map \
 stays as it is. Known is what the same deformation gives where it is fitted to where every wall \
-belongs: what is left then no smooth deformation takes away, for one wall, or its two faces, may be \
-displaced in several ways.";
+belongs: what is left then is beyond it, for one wall, or its two faces, may be displaced in several \
+ways.";
 
 const PAIRS: &str = "\
 Under `auto`. Lost is the largest share of an input's wall that the fused map has no more, of the \

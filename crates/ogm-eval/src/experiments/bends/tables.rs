@@ -16,7 +16,7 @@ const HEADER: [&str; 12] = [
     "after, m",
     "known, m",
     "fall where made straight, %",
-    "known, %",
+    "known there, %",
     "worst growth, cells",
     "doubled before, %",
     "after, %",
